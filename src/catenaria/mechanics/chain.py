@@ -1,0 +1,101 @@
+"""A cable as a chain of elements with shared nodes, and what can be said about a point on it.
+
+Sharing r and r' between neighbours is the fixed joint (16) without multipliers: equal positions, equal slopes.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from catenaria.numerics.hermite import shape, shape_1, shape_2
+
+FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.int64]
+
+_OVERLAP = 1e-6  # part of an element by which a sliding point may lie beyond it before it changes over: no cycling
+
+
+@dataclass(frozen=True)
+class Section:
+    """Constant cross-section properties.
+
+    Attributes
+    ----------
+    EA, EJ : float
+        Axial stiffness [N] and bending stiffness [N m^2].
+    rhoA : float
+        Mass per unstressed length [kg/m].
+    """
+
+    EA: float
+    EJ: float
+    rhoA: float
+
+
+@dataclass(frozen=True)
+class Chain:
+    """A cable: nodes at material coordinates `knots`, one element between each two.
+
+    Attributes
+    ----------
+    nodes : IntArray, shape (n_nodes, 6)
+        Indices of r and r' of every node.
+    knots : FloatArray, shape (n_nodes,)
+        Material (unstressed) arc length of every node from the cable's start [m].
+    section : Section
+        Cross-section.
+    """
+
+    nodes: IntArray
+    knots: FloatArray
+    section: Section
+
+    @property
+    def dofs(self) -> IntArray:
+        """Indices of r_i, r_i', r_j, r_j' of every element, shape (n_elements, 12)."""
+        return np.concatenate((self.nodes[:-1], self.nodes[1:]), axis=1)
+
+    @property
+    def L(self) -> FloatArray:
+        """Undeformed length of every element [m]."""
+        return np.diff(self.knots)
+
+    def locate(self, s: FloatArray) -> IntArray:
+        """Return the element in which each material coordinate lies; the first or last one beyond the ends."""
+        return np.clip(np.searchsorted(self.knots, s, side="right") - 1, 0, self.knots.size - 2)
+
+    def relocate(self, s: FloatArray, element: IntArray) -> IntArray:
+        """Return the elements that fit s; a point stays in its element until it is beyond it by a small overlap."""
+        overlap = _OVERLAP * (self.knots[element + 1] - self.knots[element])
+        stays = (s >= self.knots[element] - overlap) & (s <= self.knots[element + 1] + overlap)
+        return np.where(stays, element, self.locate(s))
+
+    def local(self, s: FloatArray, element: IntArray) -> tuple[FloatArray, FloatArray]:
+        """Return the dimensionless coordinate (5) within the given elements and their lengths [m]."""
+        L = self.knots[element + 1] - self.knots[element]
+        return 2.0 * (s - self.knots[element]) / L - 1.0, L
+
+    def evaluate(self, z: FloatArray, s: FloatArray, element: IntArray | None = None) -> Points:
+        """Return shape functions, position, slope and second derivative at material coordinates s, shape (n,)."""
+        element = self.locate(s) if element is None else element
+        xi, L = self.local(s, element)
+        dofs = np.concatenate((self.nodes[element], self.nodes[element + 1]), axis=1)
+        q = z[dofs].reshape(-1, 4, 3)
+        N, N1, N2 = shape(xi, L), shape_1(xi, L), shape_2(xi, L)
+        r, r1, r2 = (np.einsum("nk,nki->ni", functions, q) for functions in (N, N1, N2))
+        return Points(dofs.reshape(-1, 4, 3), N, N1, r, r1, r2)
+
+
+@dataclass(frozen=True, slots=True)
+class Points:
+    """Points on a chain: `dofs` (n, 4, 3), N and N' (n, 4), r, r', r'' (n, 3)."""
+
+    dofs: IntArray
+    N: FloatArray
+    N1: FloatArray
+    r: FloatArray
+    r1: FloatArray
+    r2: FloatArray

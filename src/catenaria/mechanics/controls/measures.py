@@ -1,0 +1,177 @@
+"""What controls measure: tension at a wire's end or in it, height of a point, force in a dropper."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from catenaria.mechanics.chain import Chain
+from catenaria.mechanics.loads.gravity import Ramp
+
+FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.int64]
+
+
+@dataclass(frozen=True)
+class ReactionTension:
+    """The force with which the tensioning device reacts, |la| at a held wire end; negative if it pushes.
+
+    Parameters
+    ----------
+    multipliers : IntArray, shape (n, 3)
+        Indices of the forces of the wire ends on the devices.
+    direction : FloatArray, shape (n, 3)
+        Unit vectors in which the devices pull.
+    """
+
+    multipliers: IntArray
+    direction: FloatArray
+
+    def value(self, t: float, z: FloatArray) -> FloatArray:
+        """Return |la|, with the sign of the pull -la . n."""
+        la = z[self.multipliers]
+        return self._sign(la) * np.linalg.norm(la, axis=1)
+
+    def columns(self) -> IntArray:
+        """Return the multipliers."""
+        return self.multipliers
+
+    def gradient(self, t: float, z: FloatArray) -> FloatArray:
+        """Return la/|la| with that sign; -n where there is no force."""
+        la = z[self.multipliers]
+        size = np.linalg.norm(la, axis=1)
+        safe = np.where(size > 0.0, size, 1.0)
+        return np.where(size[:, None] > 0.0, (self._sign(la) / safe)[:, None] * la, -self.direction)
+
+    def _sign(self, la: FloatArray) -> FloatArray:
+        return np.copysign(1.0, -np.einsum("ni,ni->n", la, self.direction))
+
+    def relocate(self, z: FloatArray) -> None:
+        """Return None: there is no discrete state."""
+        return
+
+
+@dataclass(frozen=True)
+class StrainTension:
+    """N = EA eps of eq. (11) at sliding points of a wire, the paper's own measure.
+
+    Parameters
+    ----------
+    wire : Chain
+        The wire.
+    s : IntArray, shape (n,)
+        Indices of the sliding coordinates.
+    element : IntArray, shape (n,)
+        Element in which each point is: discrete state.
+
+    Notes
+    -----
+    One point of one element: where the wire bends within sqrt(EJ/T) and the mesh does not resolve it, the value is off
+    by hundreds of newtons. `ReactionTension` is right on any mesh.
+    """
+
+    wire: Chain
+    s: IntArray
+    element: IntArray
+
+    def value(self, t: float, z: FloatArray) -> FloatArray:
+        """Return EA (r' . r' - 1)/2."""
+        r1 = self.wire.evaluate(z, z[self.s], self.element).r1
+        return 0.5 * self.wire.section.EA * (np.einsum("ni,ni->n", r1, r1) - 1.0)
+
+    def columns(self) -> IntArray:
+        """Return the element's coordinates, then the sliding coordinate."""
+        ends = (self.wire.nodes[self.element], self.wire.nodes[self.element + 1])
+        return np.concatenate((*ends, self.s[:, None]), axis=1)
+
+    def gradient(self, t: float, z: FloatArray) -> FloatArray:
+        """Return EA N' r' and EA r' . r''."""
+        point = self.wire.evaluate(z, z[self.s], self.element)
+        by_q = (point.N1[:, :, None] * point.r1[:, None, :]).reshape(-1, 12)
+        by_s = np.einsum("ni,ni->n", point.r1, point.r2)[:, None]
+        return self.wire.section.EA * np.concatenate((by_q, by_s), axis=1)
+
+    def relocate(self, z: FloatArray) -> StrainTension | None:
+        """Return the measure in the elements that fit z, or None."""
+        element = self.wire.relocate(z[self.s], self.element)
+        return None if np.array_equal(element, self.element) else replace(self, element=element)
+
+
+@dataclass(frozen=True)
+class Height:
+    """The height of nodes, eq. (21).
+
+    Parameters
+    ----------
+    z_index : IntArray, shape (n,)
+        Indices of the nodes' vertical coordinates.
+    """
+
+    z_index: IntArray
+
+    def value(self, t: float, z: FloatArray) -> FloatArray:
+        """Return the heights [m]."""
+        return z[self.z_index]
+
+    def columns(self) -> IntArray:
+        """Return the vertical coordinates."""
+        return self.z_index[:, None]
+
+    def gradient(self, t: float, z: FloatArray) -> FloatArray:
+        """Return 1."""
+        return np.ones((self.z_index.size, 1))
+
+    def relocate(self, z: FloatArray) -> None:
+        """Return None: there is no discrete state."""
+        return
+
+
+@dataclass(frozen=True)
+class DropperForce:
+    """T_md - G of eq. (23): what an upper dropper cable can carry besides the weight of the dropper that will hang there.
+
+    Parameters
+    ----------
+    force : IntArray, shape (n,)
+        Indices of the vertical multipliers at the messenger: the pull of the wire on the dropper, T_md [N].
+    top : IntArray, shape (n,)
+        Indices of the vertical coordinates of P_md.
+    bottom : FloatArray, shape (n,)
+        Vertical coordinates of P_cd found in the first step [m].
+    rhoA : float
+        Mass of the dropper per length [kg/m].
+    mass : FloatArray, shape (n,)
+        Mass of the clamps [kg].
+    g, ramp
+        Gravity [m/s^2] and its ramp.
+
+    Notes
+    -----
+    The weight G = g (rhoA (z_md - z_cd) + mass) varies with the height between the two points, as in the paper.
+    """
+
+    force: IntArray
+    top: IntArray
+    bottom: FloatArray
+    rhoA: float
+    mass: FloatArray
+    g: float
+    ramp: Ramp
+
+    def value(self, t: float, z: FloatArray) -> FloatArray:
+        """Return T_md - G [N]."""
+        return z[self.force] - self.g * self.ramp(t) * (self.rhoA * (z[self.top] - self.bottom) + self.mass)
+
+    def columns(self) -> IntArray:
+        """Return force and height."""
+        return np.stack((self.force, self.top), axis=1)
+
+    def gradient(self, t: float, z: FloatArray) -> FloatArray:
+        """Return 1 and -g rhoA."""
+        return np.tile([1.0, -self.g * self.ramp(t) * self.rhoA], (self.force.size, 1))
+
+    def relocate(self, z: FloatArray) -> None:
+        """Return None: there is no discrete state."""
+        return

@@ -1,0 +1,121 @@
+"""A mechanical system: unknowns and the contributions that act on them.
+
+Static solvers and integrators see only this: residual, Jacobian, and the discrete state of sliding joints. What the parts
+are (elements, joints, loads, controls) is known to the parts alone.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import csc_matrix
+
+from catenaria.errors import InconsistentInputError
+from catenaria.mechanics.contribution import Contribution, Relocatable
+from catenaria.mechanics.kernels.scatter import sum_into
+from catenaria.mechanics.state import State
+from catenaria.mechanics.unknowns import Unknowns
+
+FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.int64]
+
+
+@dataclass(frozen=True)
+class SparsityPattern:
+    """Where the entries of all contributions go in one compressed sparse column matrix.
+
+    Attributes
+    ----------
+    place : IntArray, shape (m,)
+        Position in `data` of each contributed entry.
+    indices, indptr : NDArray[np.int32]
+        Row indices and column pointers of the matrix.
+    """
+
+    place: IntArray
+    indices: NDArray[np.int32]
+    indptr: NDArray[np.int32]
+
+    @classmethod
+    def of(cls, rows: IntArray, columns: IntArray, size: int) -> SparsityPattern:
+        """Sort the entries by column and row and give equal ones the same place."""
+        keys, place = np.unique(columns * size + rows, return_inverse=True)
+        indptr = np.searchsorted(keys, np.arange(size + 1) * size)
+        return cls(place.astype(np.int64), (keys % size).astype(np.int32), indptr.astype(np.int32))
+
+
+@dataclass(frozen=True)
+class System:
+    """Unknowns and contributions; immutable, so that a change of discrete state gives a new system.
+
+    Parameters
+    ----------
+    unknowns : Unknowns
+        The numbering that all contributions use.
+    contributions : tuple of Contribution
+        Elements, joints, loads and controls.
+
+    Raises
+    ------
+    InconsistentInputError
+        If something in `contributions` lacks a member of the protocol, or an equation has no entry at all.
+    """
+
+    unknowns: Unknowns
+    contributions: tuple[Contribution, ...]
+
+    def __post_init__(self) -> None:
+        for contribution in self.contributions:
+            if not isinstance(contribution, Contribution):  # pyright: ignore[reportUnnecessaryIsInstance]
+                raise InconsistentInputError(f"{type(contribution).__name__} is not a Contribution")
+
+    @property
+    def size(self) -> int:
+        """Number of unknowns, and of equations."""
+        return self.unknowns.size
+
+    @cached_property
+    def sparsity(self) -> SparsityPattern:
+        """Sparsity pattern of the Jacobian, built at its first use."""
+        patterns = [contribution.pattern() for contribution in self.contributions]
+        rows = np.concatenate([rows for rows, _ in patterns])
+        columns = np.concatenate([columns for _, columns in patterns])
+        idle = np.setdiff1d(np.arange(self.size), rows)
+        if idle.size:
+            raise InconsistentInputError(f"no contribution has an equation for unknown {idle[0]}")
+        return SparsityPattern.of(rows, columns, self.size)
+
+    def residual(self, state: State) -> FloatArray:
+        """Return F(t, z, z', z''), shape (n,): forces [N], moments per slope [N m], constraints [m], control laws [m/s]."""
+        f = np.zeros(self.size)
+        for contribution in self.contributions:
+            contribution.add_residual(state, f)
+        return f
+
+    def jacobian(self, state: State, c1: float = 0.0, c2: float = 0.0) -> csc_matrix:
+        """Return F_z + c1 F_z' + c2 F_z'' as a sparse matrix of shape (n, n).
+
+        Parameters
+        ----------
+        state : State
+            Where to linearise.
+        c1, c2 : float
+            Derivatives of z' and z'' by z in the time discretisation, [1/s] and [1/s^2]; 0 for statics.
+        """
+        entries = np.concatenate([part.jacobian(state, c1, c2) for part in self.contributions])
+        pattern = self.sparsity
+        data = sum_into(entries, pattern.place, pattern.indices.size)
+        return csc_matrix((data, pattern.indices, pattern.indptr), shape=(self.size, self.size))
+
+    def relocate(self, z: FloatArray) -> System | None:
+        """Return the system whose sliding joints are in the elements that fit z, or None if they already are."""
+        parts: list[Contribution] = []
+        changed = False
+        for part in self.contributions:
+            moved = part.relocate(z) if isinstance(part, Relocatable) else None
+            changed = changed or moved is not None
+            parts.append(part if moved is None else moved)
+        return replace(self, contributions=tuple(parts)) if changed else None
