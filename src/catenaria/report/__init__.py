@@ -1,0 +1,1 @@
+"""What an engineer is handed: tables and figures of a result."""

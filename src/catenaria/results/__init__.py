@@ -1,0 +1,33 @@
+"""Results of form-finding as values, and how they are kept on disk."""
+
+from __future__ import annotations
+
+from catenaria.results.folder import replace_folder, require_replaceable
+from catenaria.results.form import (
+    Controls,
+    Counters,
+    Droppers,
+    FormResult,
+    History,
+    Profile,
+    Stage,
+    Supports,
+    WireForm,
+)
+from catenaria.results.store import load_result, save_result
+
+__all__ = [
+    "Controls",
+    "Counters",
+    "Droppers",
+    "FormResult",
+    "History",
+    "Profile",
+    "Stage",
+    "Supports",
+    "WireForm",
+    "load_result",
+    "replace_folder",
+    "require_replaceable",
+    "save_result",
+]

@@ -72,7 +72,7 @@ class Profile:
     strain_tension : FloatArray
         N = EA eps of eq. (11) [N].
     horizontal : FloatArray
-        Component of the section force (axial and shear) along the track [N].
+        Component of the true axial force along the track [N].
     moment : FloatArray
         Bending moment EJ kappa, without sign [N m].
     """

@@ -1,0 +1,19 @@
+"""Numerical solvers that know no mechanics: BDF for index-3 systems, Newton, starting values, sparse LU."""
+
+from __future__ import annotations
+
+from catenaria.solvers.bdf import integrate
+from catenaria.solvers.outcome import Counters, Options, Solution, Start, Status, Step
+from catenaria.solvers.problem import AlgebraicProblem, DaeProblem
+
+__all__ = [
+    "AlgebraicProblem",
+    "Counters",
+    "DaeProblem",
+    "Options",
+    "Solution",
+    "Start",
+    "Status",
+    "Step",
+    "integrate",
+]

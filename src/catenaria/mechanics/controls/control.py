@@ -57,24 +57,27 @@ class Controls:
         What it should be [N or m].
     law : VelocityLaw
         How fast the parameters follow.
-    ramp : Ramp
-        Brings the velocity in together with gravity, because the wire rests at t = 0.
+    velocity_ramp : Ramp
+        Brings the velocity in, because the wire rests at t = 0.
+    target_ramp : Ramp
+        Brings the target in; for a force that balances weight it is the ramp of gravity, so that e = 0 at the start.
     """
 
     parameter: IntArray
     measure: Measure
     target: FloatArray
     law: VelocityLaw
-    ramp: Ramp
+    velocity_ramp: Ramp
+    target_ramp: Ramp
 
     def error(self, t: float, z: FloatArray) -> FloatArray:
         """Return e = m - m*, shape (n,)."""
-        return self.measure.value(t, z) - self.target
+        return self.measure.value(t, z) - self.target_ramp(t) * self.target
 
     def add_residual(self, state: State, f: FloatArray) -> None:
         """Add p' - v(e) to f."""
         velocity = self.law.velocity(self.error(state.t, state.z))
-        f[self.parameter] += state.zd[self.parameter] - self.ramp(state.t) * velocity
+        f[self.parameter] += state.zd[self.parameter] - self.velocity_ramp(state.t) * velocity
 
     def pattern(self) -> Pattern:
         """Return the entries of p' and of the measures' gradients."""
@@ -84,7 +87,7 @@ class Controls:
 
     def jacobian(self, state: State, c1: float, c2: float) -> FloatArray:
         """Return c1 for p' and -v'(e) dm/dz."""
-        slope = -self.ramp(state.t) * self.law.slope(self.error(state.t, state.z))
+        slope = -self.velocity_ramp(state.t) * self.law.slope(self.error(state.t, state.z))
         gradient = self.measure.gradient(state.t, state.z)
         return np.concatenate((np.full(self.parameter.size, c1), (slope[:, None] * gradient).ravel()))
 

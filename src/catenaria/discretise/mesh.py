@@ -1,0 +1,105 @@
+"""Graded meshes: short elements where a wire bends, long ones between.
+
+A taut wire bends within a few lengths sqrt(EJ/T) of every support and clamp (0.14 m here) and is a string elsewhere.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from catenaria.errors import InconsistentInputError
+
+FloatArray = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Grading:
+    """How a wire is divided.
+
+    Parameters
+    ----------
+    fine : tuple of float
+        Distances from every support and clamp at which nodes stand [m].
+    largest : float
+        Longest element [m].
+    refine : int
+        Into how many equal parts every element is divided in the end.
+    """
+
+    fine: tuple[float, ...]
+    largest: float
+    refine: int = 1
+
+
+def graded_knots(length: float, centres: Sequence[float] | FloatArray, grading: Grading) -> FloatArray:
+    """Return the material coordinates of all nodes of a wire.
+
+    Parameters
+    ----------
+    length : float
+        Unstressed length of the wire [m].
+    centres : sequence of float
+        Material coordinates that will lie under supports and clamps; each gets a node [m].
+    grading : Grading
+        Distances and sizes.
+
+    Returns
+    -------
+    FloatArray
+        From 0 to `length`, ascending.
+
+    Raises
+    ------
+    InconsistentInputError
+        If a centre lies outside the wire.
+
+    Examples
+    --------
+    >>> graded_knots(10.0, [5.0], Grading(fine=(0.1, 0.3), largest=2.5))
+    array([ 0.  ,  2.35,  4.7 ,  4.9 ,  5.  ,  5.1 ,  5.3 ,  7.65, 10.  ])
+    """
+    middle = np.unique(np.asarray(centres, dtype=np.float64))
+    if middle.size and not (0.0 <= middle[0] and middle[-1] <= length):
+        raise InconsistentInputError("a support or clamp lies beyond the end of its wire")
+    primary = np.unique(np.concatenate(([0.0], middle, [length])))
+    knots = [0.0]
+    for left, right in zip(primary[:-1], primary[1:], strict=True):
+        knots.extend(_between(left, right, np.isin(left, middle), np.isin(right, middle), grading))
+    return np.array(knots)
+
+
+def _between(left: float, right: float, fine_left: np.bool, fine_right: np.bool, grading: Grading) -> list[float]:
+    """Return the nodes after `left` up to `right`; fine distances are kept to where half of the gap begins."""
+    half = 0.5 * (right - left)
+    fine = [distance for distance in sorted(grading.fine) if distance < 0.95 * half]
+    nodes = [left, *(left + d for d in fine if fine_left), *(right - d for d in reversed(fine) if fine_right), right]
+    result: list[float] = []
+    for a, b in zip(nodes[:-1], nodes[1:], strict=True):
+        count = grading.refine * max(1, int(np.ceil((b - a) / grading.largest - 1e-9)))
+        result.extend(np.linspace(a, b, count + 1)[1:].tolist())
+    return result
+
+
+def material_coordinate(x: FloatArray, middle: float, length: float, strain: float) -> FloatArray:
+    """Return the material coordinate that will lie at x when the wire is tensioned.
+
+    Parameters
+    ----------
+    x : FloatArray
+        Positions along the track [m].
+    middle : float
+        Position of the wire's fixed point, half way between its ends that are pulled apart [m].
+    length : float
+        Unstressed length of the wire [m].
+    strain : float
+        T/EA.
+
+    Notes
+    -----
+    s = length/2 + (x - middle)/(1 + strain); the excess of the arc over its chord is neglected.
+    """
+    return 0.5 * length + (x - middle) / (1.0 + strain)

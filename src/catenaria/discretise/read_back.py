@@ -1,0 +1,112 @@
+"""From a state of a wire model back to what an engineer asks for: profiles, tensions, sags, reactions."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from catenaria.discretise.wire_model import WireModel
+from catenaria.mechanics.chain import Chain
+from catenaria.mechanics.controls.control import Controls as ControlBatch
+from catenaria.numerics.gauss import gauss_legendre
+from catenaria.results.form import Profile, Stage, WireForm
+
+FloatArray = NDArray[np.float64]
+
+_SAMPLES = 8  # points in each element: the sag of a 9.5 m bay is then met to 0.01 mm
+
+
+def profile(chain: Chain, z: FloatArray) -> Profile:
+    """Return position and internal forces along a cable, eqs. (9)-(11), at several points of each element."""
+    parts = np.arange(_SAMPLES) / _SAMPLES
+    s = np.append((chain.knots[:-1, None] + chain.L[:, None] * parts).ravel(), chain.knots[-1])
+    point = chain.evaluate(z, s)
+    size = np.linalg.norm(point.r1, axis=1)
+    N = chain.section.EA * 0.5 * (size**2 - 1.0)
+    kappa = np.linalg.norm(np.cross(point.r1, point.r2), axis=1) / size**3
+    x, y, up = point.r.T.copy()
+    return Profile(s, x, y, up, N * size, N, N * point.r1[:, 0], chain.section.EJ * kappa)
+
+
+def stretched_length(chain: Chain, z: FloatArray, start: float, end: float) -> float:
+    """Return the deformed length between two material coordinates [m]."""
+    points, weights = gauss_legendre(5)
+    knots = np.unique(np.concatenate(([start], chain.knots[(chain.knots > start) & (chain.knots < end)], [end])))
+    half = 0.5 * np.diff(knots)[:, None]
+    s = (knots[:-1, None] + half * (points + 1.0)).ravel()
+    size = np.linalg.norm(chain.evaluate(z, s).r1, axis=1)
+    return float(np.sum(size.reshape(half.shape[0], -1) * weights * half))
+
+
+def sag(shape: Profile, x: FloatArray, height: FloatArray) -> float:
+    """Return the largest depth of a wire below the chords between the given points on it [m]."""
+    inside = (shape.x >= x[0]) & (shape.x <= x[-1])
+    return float(np.max(np.interp(shape.x[inside], x, height) - shape.z[inside], initial=0.0))
+
+
+def support_strain_tension(model: WireModel, z: FloatArray) -> FloatArray:
+    """Return N = EA eps of eq. (11) at the wire's supports [N]."""
+    r1 = model.wire.evaluate(z, z[model.support_s]).r1
+    return 0.5 * model.wire.section.EA * (np.einsum("ni,ni->n", r1, r1) - 1.0)
+
+
+def reactions(model: WireModel, z: FloatArray) -> FloatArray:
+    """Return the sizes of the forces at the wire's start and end [N]."""
+    return np.linalg.norm(z[model.end_force], axis=1)
+
+
+def wire_form(model: WireModel, control: ControlBatch, t: float, z: FloatArray) -> WireForm:
+    """Return everything that was found for the wire of one step."""
+    wire, setup = model.wire, model.setup
+    shape = profile(wire, z)
+    s_start, s_end = z[model.support_s[[0, -1]]]
+    between = (shape.s >= s_start) & (shape.s <= s_end)
+    tension = shape.tension[between]
+    error = float(control.error(t, z)[0])
+    force = np.linalg.norm(z[model.end_force], axis=1)
+    along = np.abs(z[model.end_force[:, 0]])
+    start = model.system.unknowns.start[wire.nodes]
+    if setup.droppers.up:
+        hung_x, hung_s = setup.droppers.x, model.clamp_s
+    else:
+        hung_x, hung_s = setup.support_x, model.support_s
+    hung_z = wire.evaluate(z, z[hung_s]).r[:, 2]
+    return WireForm(
+        name=setup.name,
+        unstressed_length=float(s_end - s_start),
+        stretched_length=stretched_length(wire, z, float(s_start), float(s_end)),
+        target_tension=setup.tension.force,
+        tension=setup.tension.force + error,
+        tension_error=error,
+        measure=setup.tension.measure,
+        horizontal_start=float(along[0]),
+        horizontal_end=float(along[1]),
+        reaction_start=float(force[0]),
+        reaction_end=float(force[1]),
+        tension_min=float(tension.min()),
+        tension_max=float(tension.max()),
+        tension_mean=float(np.trapezoid(tension, shape.s[between]) / np.ptp(shape.s[between])),
+        travel=float(z[model.pull[0]]),
+        sag=sag(shape, hung_x, hung_z),
+        profile=shape,
+        start_x=start[:, 0],
+        start_z=start[:, 2],
+    )
+
+
+def stage(model: WireModel, z: FloatArray) -> Stage:
+    """Return the state as values that another run can start from."""
+    chains = (model.wire, *model.cables)
+    nodes = np.concatenate([chain.nodes for chain in chains])
+    names = (model.setup.name, *(f"dropper {i}" for i in range(1, len(chains))))
+    return Stage(
+        step=model.setup.name,
+        chain=names,
+        node_count=np.array([chain.knots.size for chain in chains]),
+        s=np.concatenate([chain.knots for chain in chains]),
+        position=z[nodes[:, :3]],
+        slope=z[nodes[:, 3:]],
+        sliding_coordinate=z[np.concatenate((model.support_s, model.clamp_s))],
+        parameter=z[np.concatenate((model.pull, model.dropper_travel))],
+        multiplier=z[model.multipliers],
+    )

@@ -1,0 +1,146 @@
+"""One dynamic step of the method: move a wire model under its controls until it rests, eqs. (18)-(27)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from time import perf_counter
+
+import numpy as np
+from numpy.typing import NDArray
+
+from catenaria.discretise.wire_model import WireModel
+from catenaria.errors import NotConvergedError
+from catenaria.formfinding.motion_problem import MotionProblem, Tolerances
+from catenaria.formfinding.settling import Settled, largest_error, largest_speed, remaining_travel
+from catenaria.mechanics.controls.control import Controls
+from catenaria.mechanics.system import System
+from catenaria.solvers.bdf import integrate
+from catenaria.solvers.outcome import Options, Solution, Start, Status, Step
+
+FloatArray = NDArray[np.float64]
+Observer = Callable[[Step], None]
+
+_CHECK_EVERY = 10  # accepted steps between two looks at the remaining travel, which costs a factorisation
+
+
+@dataclass(frozen=True)
+class Watch:
+    """How the motion looks after an accepted step: for progress displays.
+
+    Attributes
+    ----------
+    model : WireModel
+        What moves.
+    step : Step
+        The accepted step.
+    worst_control : str
+        Name of the control with the largest error.
+    worst_error_in_bands : float
+        That error in units of its dead band.
+    """
+
+    model: WireModel
+    step: Step
+    worst_control: str
+    worst_error_in_bands: float
+
+
+@dataclass(frozen=True)
+class Motion:
+    """A finished step.
+
+    Attributes
+    ----------
+    model : WireModel
+        What moved.
+    system : System
+        Its system with the final discrete state.
+    solution : Solution
+        All accepted time steps.
+    wall_time : float
+        Time it took [s].
+    """
+
+    model: WireModel
+    system: System
+    solution: Solution
+    wall_time: float
+
+    @property
+    def t(self) -> float:
+        """Final time [s]."""
+        return float(self.solution.t[-1])
+
+    @property
+    def z(self) -> FloatArray:
+        """Final unknowns."""
+        return self.solution.y[-1]
+
+    @property
+    def controls(self) -> tuple[Controls, Controls]:
+        """The tension control and the dropper controls in their final discrete state."""
+        return self.model.controls(self.system)
+
+
+class _Rest:
+    """Stop function of the integrator: looks at speeds, control errors and remaining travel."""
+
+    def __init__(self, model: WireModel, settled: Settled) -> None:
+        self._model = model
+        self._settled = settled
+
+    def __call__(self, step: Step) -> str | None:
+        """Return why the motion counts as settled, or None while it does not."""
+        setup, settled = self._model.setup, self._settled
+        if step.t < max(setup.gravity_ramp.duration, setup.control_ramp.duration):
+            return None
+        system = system_of(step)
+        if largest_speed(system, step.yd) > settled.velocity:
+            return None
+        controls = self._model.controls(system)
+        if largest_error(controls, step.t, step.y)[0] <= settled.dead_bands:
+            return f"at rest, and every control error is within {settled.dead_bands:g} dead bands"
+        if step.number % _CHECK_EVERY == 0:
+            travel = remaining_travel(system, controls, step.t, step.y)
+            if travel <= settled.remaining_travel:
+                return f"at rest, and no control would travel farther than {1e3 * travel:.2g} mm"
+        return None
+
+
+def system_of(step: Step) -> System:
+    """Return the system behind a time step."""
+    problem = step.problem
+    if not isinstance(problem, MotionProblem):
+        raise TypeError("the step does not belong to a MotionProblem")
+    return problem.system
+
+
+def move(
+    model: WireModel,
+    tolerances: Tolerances,
+    options: Options,
+    settled: Settled,
+    max_time: float,
+    observers: tuple[Observer, ...] = (),
+) -> Motion:
+    """Integrate a wire model from its starting configuration until it is settled.
+
+    Raises
+    ------
+    NotConvergedError
+        If the integrator fails or the motion is not settled at `max_time`; `partial` is the `Solution` so far.
+    """
+    begin = perf_counter()
+    z = model.system.unknowns.start
+    start = Start(0.0, z, np.zeros_like(z))
+    problem = MotionProblem(model.system, tolerances)
+    solution = integrate(problem, start, max_time, options, observers, _Rest(model, settled))
+    final = solution.problem
+    if solution.status is not Status.STOPPED or not isinstance(final, MotionProblem):
+        raise NotConvergedError(
+            f"the {model.setup.name} is not at rest after {solution.t[-1]:.4g} s of simulated time",
+            "a longer solver.dynamic.integrator.max_time, wider dead bands or larger control velocities",
+            solution,
+        )
+    return Motion(model, final.system, solution, perf_counter() - begin)

@@ -1,0 +1,95 @@
+"""A mechanical system as the differential-algebraic problem that the integrator solves, eq. (24)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import csc_matrix
+
+from catenaria.mechanics.state import State
+from catenaria.mechanics.system import System
+from catenaria.mechanics.unknowns import Kind
+
+FloatArray = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Tolerances:
+    """What the integrator may neglect.
+
+    Attributes
+    ----------
+    position : float
+        Error of positions and control parameters in one time step [m].
+    correction : float
+        Newton correction of a position, sliding coordinate or parameter that counts as none [m].
+    force : float
+        The same for multipliers [N].
+    """
+
+    position: float
+    correction: float
+    force: float
+
+
+@dataclass(frozen=True)
+class MotionProblem:
+    """`catenaria.solvers.problem.DaeProblem` for a `System`.
+
+    Parameters
+    ----------
+    system : System
+        What moves.
+    tolerances : Tolerances
+        Error control acts on positions and control parameters only; slopes follow positions, sliding coordinates and
+        multipliers are algebraic.
+    """
+
+    system: System
+    tolerances: Tolerances
+
+    @property
+    def size(self) -> int:
+        """Number of unknowns."""
+        return self.system.size
+
+    @cached_property
+    def order_of(self) -> NDArray[np.int8]:
+        """Highest time derivative of each unknown."""
+        unknowns = self.system.unknowns
+        order = 2 * unknowns.where(Kind.POSITION, Kind.SLOPE) + unknowns.where(Kind.PARAMETER)
+        return order.astype(np.int8)
+
+    @cached_property
+    def constraint(self) -> NDArray[np.bool_]:
+        """Rows that are constraints; each multiplier has the index of its constraint."""
+        return self.system.unknowns.where(Kind.MULTIPLIER)
+
+    @cached_property
+    def error_scale(self) -> FloatArray:
+        """Error allowed per step."""
+        controlled = self.system.unknowns.where(Kind.POSITION, Kind.PARAMETER)
+        return np.where(controlled, self.tolerances.position, np.inf)
+
+    @cached_property
+    def newton_scale(self) -> FloatArray:
+        """Negligible Newton corrections."""
+        return np.where(self.constraint, self.tolerances.force, self.tolerances.correction)
+
+    def residual(self, t: float, y: FloatArray, yd: FloatArray, ydd: FloatArray) -> FloatArray:
+        """Return F(t, y, y', y'')."""
+        return self.system.residual(State(t, y, yd, ydd))
+
+    def jacobian(
+        self, t: float, y: FloatArray, yd: FloatArray, ydd: FloatArray, c1: float, c2: float
+    ) -> csc_matrix:
+        """Return F_y + c1 F_y' + c2 F_y''."""
+        return self.system.jacobian(State(t, y, yd, ydd), c1, c2)
+
+    def reselect(self, y: FloatArray) -> MotionProblem | None:
+        """Return the problem whose sliding joints are in the elements that fit y, or None."""
+        system = self.system.relocate(y)
+        return None if system is None else replace(self, system=system)

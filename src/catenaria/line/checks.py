@@ -1,0 +1,81 @@
+"""What must fit together in a line although every part is right in itself."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from catenaria.line.base import Path, Problem, closest
+
+if TYPE_CHECKING:
+    from catenaria.line.line import Line
+
+
+def line_problems(line: Line) -> Iterator[Problem]:
+    """Find everything that contradicts something else in the line.
+
+    Yields
+    ------
+    Problem
+        One for each contradiction, at the place where it would be mended.
+    """
+    yield from _unknown_conductors(line)
+    yield from _wrong_counts(line)
+    yield from _loose_ends(line)
+    yield from _names_given_twice(line)
+    yield from _low_messenger(line)
+
+
+def _unknown_conductors(line: Line) -> Iterator[Problem]:
+    references: list[tuple[Path, str]] = [
+        (("contact_wire", "conductor"), line.contact_wire.conductor),
+        (("messenger_wire", "conductor"), line.messenger_wire.conductor),
+        (("dropper", "conductor"), line.dropper.conductor),
+    ]
+    references += [
+        (("other_wires", i, "conductor"), wire.conductor) for i, wire in enumerate(line.other_wires)
+    ]
+    for path, name in references:
+        if name not in line.conductors:
+            known = ", ".join(line.conductors) or "none: conductors is empty"
+            yield Problem(path, name, f"one of the conductors: {known}{closest(name, line.conductors)}")
+
+
+def _wrong_counts(line: Line) -> Iterator[Problem]:
+    supports, spans = len(line.supports), len(line.spans)
+    if supports < 2:
+        yield Problem(("supports",), line.supports, "at least two supports that hold the wires")
+    elif supports != spans + 1:
+        allowed = f"{spans + 1} supports for {spans} spans, or {supports - 1} spans for {supports} supports"
+        yield Problem(("supports",), line.supports, allowed)
+    if not any(span.droppers.x for span in line.spans):
+        yield Problem(("spans",), line.spans, "at least one span with a dropper")
+
+
+def _loose_ends(line: Line) -> Iterator[Problem]:
+    for i in {0, len(line.supports) - 1}:
+        if 0 <= i < len(line.supports) and line.supports[i].contact_wire is None:
+            which = "first" if i == 0 else "last"
+            allowed = f"a height: the {which} support must hold the contact wire"
+            yield Problem(("supports", i, "contact_wire"), None, allowed, "missing")
+
+
+def _names_given_twice(line: Line) -> Iterator[Problem]:
+    seen: set[str] = set()
+    for i, support in enumerate(line.supports):
+        if support.name in seen:
+            yield Problem(("supports", i, "name"), support.name, "a name that no other support has")
+        seen.add(support.name)
+
+
+def _low_messenger(line: Line) -> Iterator[Problem]:
+    """Where the contact wire passes a support freely, its height there is that at the nearest droppers."""
+    for i, support in enumerate(line.supports):
+        left = line.spans[i - 1].heights[-1:] if 0 < i <= len(line.spans) else ()
+        right = line.spans[i].heights[:1] if i < len(line.spans) else ()
+        nearest = left + right
+        if support.contact_wire is None and nearest and support.messenger_height <= max(nearest):
+            allowed = (
+                f"more than {max(nearest):g} m, the wanted height of the contact wire at the next dropper"
+            )
+            yield Problem(("supports", i, "messenger_wire", "height"), support.messenger_height, allowed)

@@ -1,0 +1,73 @@
+"""Conductors: what wires and droppers are made of."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from pydantic import ConfigDict, Field, model_validator
+
+from catenaria.line.base import LineModel, Problem, exactly_one, refuse
+from catenaria.units import (
+    BendingStiffness,
+    PositiveArea,
+    PositiveDensity,
+    PositiveMassPerLength,
+    PositivePressure,
+)
+
+
+class Conductor(LineModel):
+    """Cross-section and material of a wire or dropper.
+
+    Examples
+    --------
+    >>> wire = Conductor(youngs_modulus=130e9, area=120e-6, density=7710, bending_stiffness=400)
+    >>> wire.EA, round(wire.rhoA, 4)
+    (15600000.0, 0.9252)
+    """
+
+    model_config = ConfigDict(json_schema_extra=exactly_one("density", "mass_per_length"))
+
+    youngs_modulus: PositivePressure = Field(
+        description="Young's modulus E of the whole section; for stranded wires the effective one."
+    )
+    area: PositiveArea = Field(description="Cross-sectional area A of the metal.")
+    density: PositiveDensity | None = Field(
+        default=None, description="Mass per volume of metal. Give this or mass_per_length."
+    )
+    mass_per_length: PositiveMassPerLength | None = Field(
+        default=None, description="Mass per unstressed length. Give this or density."
+    )
+    bending_stiffness: BendingStiffness = Field(
+        description="Bending stiffness EJ; 0 for a perfectly flexible cable."
+    )
+
+    @property
+    def EA(self) -> float:  # noqa: N802 (the field's symbol)
+        """Axial stiffness [N]."""
+        return self.youngs_modulus * self.area
+
+    @property
+    def EJ(self) -> float:  # noqa: N802 (the field's symbol)
+        """Bending stiffness [N m^2]."""
+        return self.bending_stiffness
+
+    @property
+    def rhoA(self) -> float:  # noqa: N802 (the field's symbol)
+        """Mass per unstressed length [kg/m]."""
+        if self.mass_per_length is not None:
+            return self.mass_per_length
+        return (self.density or 0.0) * self.area
+
+    @model_validator(mode="after")
+    def _one_mass(self) -> Conductor:
+        refuse("Conductor", self._mass_problems())
+        return self
+
+    def _mass_problems(self) -> Iterator[Problem]:
+        if self.density is None and self.mass_per_length is None:
+            yield Problem(
+                ("density",), None, "a value: one of density and mass_per_length is needed", "missing"
+            )
+        if self.density is not None and self.mass_per_length is not None:
+            yield Problem(("mass_per_length",), self.mass_per_length, "this or density, not both")

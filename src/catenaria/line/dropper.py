@@ -1,0 +1,104 @@
+"""Droppers: what they are made of and where they hang."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import pairwise
+from typing import Annotated, Literal
+
+from annotated_types import Ge
+from pydantic import Field, Strict, model_validator
+
+from catenaria.line.base import LineModel, Problem, refuse
+from catenaria.units import Length, NonNegativeLength, NonNegativeMass, PositiveLength
+
+
+class DropperKind(LineModel):
+    """What every dropper of the line is made of, and how it is modelled."""
+
+    conductor: str = Field(description="Name of one of the conductors.")
+    guessed_length: PositiveLength = Field(
+        default=1.5,
+        description=(
+            "Length of each of the two cables that model a dropper until its length is found: one below the "
+            "messenger wire, one above the contact wire. The result does not depend on it."
+        ),
+    )
+    joint: Literal["guided", "frictionless"] = Field(
+        default="guided",
+        description=(
+            "guided: the clamp is held along the track and the force is vertical, as built. "
+            "frictionless: the clamp slides along the wire, literally eq. (15) of Yang et al. 2017."
+        ),
+    )
+    elements: Annotated[int, Strict(), Ge(1)] = Field(
+        default=2, description="ANCF elements of each of the two cables."
+    )
+    clamp_mass_top: NonNegativeMass = Field(
+        default=0.0, description="Mass of the clamp at the messenger wire."
+    )
+    clamp_mass_bottom: NonNegativeMass = Field(
+        default=0.0, description="Mass of the clamp at the contact wire."
+    )
+    clamp_height_top: NonNegativeLength = Field(
+        default=0.0, description="What the upper clamp bridges: subtracted from the length to be cut."
+    )
+    clamp_height_bottom: NonNegativeLength = Field(
+        default=0.0, description="What the lower clamp bridges: subtracted from the length to be cut."
+    )
+
+
+class Droppers(LineModel):
+    """Where the droppers of a span hang: a list of positions, or the first one, the spacing and how many.
+
+    Examples
+    --------
+    >>> Droppers(first=4.0, spacing=9.5, count=3).x
+    (4.0, 13.5, 23.0)
+    """
+
+    positions: tuple[Length, ...] | None = Field(
+        default=None, description="Distances from the span's first support, in ascending order."
+    )
+    first: Length | None = Field(
+        default=None, description="Distance of the first dropper from the first support."
+    )
+    spacing: PositiveLength | None = Field(
+        default=None, description="Distance between neighbouring droppers."
+    )
+    count: Annotated[int, Strict(), Ge(1)] | None = Field(default=None, description="Number of droppers.")
+
+    @property
+    def x(self) -> tuple[float, ...]:
+        """Distances of the droppers from the span's first support [m]."""
+        if self.positions is not None:
+            return self.positions
+        first, spacing = self.first or 0.0, self.spacing or 0.0
+        return tuple(first + i * spacing for i in range(self.count or 0))
+
+    def place(self, number: int) -> tuple[str | int, ...]:
+        """Field that says where the dropper with this index hangs."""
+        if self.positions is not None:
+            return ("positions", number)
+        return ("first",) if number == 0 else ("spacing",)
+
+    @model_validator(mode="after")
+    def _one_way(self) -> Droppers:
+        refuse("Droppers", self._problems())
+        return self
+
+    def _problems(self) -> Iterator[Problem]:
+        pattern = {"first": self.first, "spacing": self.spacing, "count": self.count}
+        if self.positions is None:
+            missing = [name for name, value in pattern.items() if value is None]
+            for name in ["positions"] if len(missing) == len(pattern) else missing:
+                yield Problem((name,), None, "positions, or first, spacing and count together", "missing")
+            return
+        for name, value in pattern.items():
+            if value is not None:
+                yield Problem((name,), value, "either positions, or first, spacing and count")
+        for i, (before, after) in enumerate(pairwise(self.positions), start=1):
+            if after <= before:
+                yield Problem(
+                    ("positions", i), after, f"more than {before:g} m: droppers stand in ascending order"
+                )

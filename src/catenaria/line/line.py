@@ -1,0 +1,115 @@
+"""The whole line: what an engineer describes and a method solves."""
+
+from __future__ import annotations
+
+from itertools import accumulate
+from typing import Any, Literal
+
+from pydantic import Field, PrivateAttr, field_validator, model_validator
+from pydantic_core import PydanticCustomError
+
+from catenaria.line.base import LineModel, refuse
+from catenaria.line.checks import line_problems
+from catenaria.line.conductor import Conductor
+from catenaria.line.dropper import DropperKind
+from catenaria.line.solver import Solver
+from catenaria.line.source import Source
+from catenaria.line.span import Span
+from catenaria.line.support import Support
+from catenaria.line.track import Track
+from catenaria.line.wire import OtherWire, Wire
+from catenaria.units import Length, PositiveAcceleration
+
+
+class Line(LineModel):
+    """An overhead contact line: wires, supports, spans with droppers, and how to solve it.
+
+    All quantities are floats in SI. Axes: x along the track from the chainage's origin, y to the left, z up.
+    """
+
+    format: Literal[1] = Field(description="Version of this file format: 1.")
+    name: str = Field(default="", description="A short name, for tables and figures.")
+    description: str = Field(default="", description="Whatever a reader should know.")
+    gravity: PositiveAcceleration = Field(default=9.80665, description="Acceleration of gravity.")
+    conductors: dict[str, Conductor] = Field(
+        description="Conductors by name; wires and droppers refer to the names."
+    )
+    contact_wire: Wire = Field(description="The wire that the pantograph touches.")
+    messenger_wire: Wire = Field(description="The wire that carries the contact wire through the droppers.")
+    dropper: DropperKind = Field(description="What all droppers are made of.")
+    start_chainage: Length = Field(default=0.0, description="Chainage (x) of the first support.")
+    supports: tuple[Support, ...] = Field(description="Supports in order of chainage: one more than spans.")
+    spans: tuple[Span, ...] = Field(description="Spans in order of chainage.")
+    track: Track = Field(default=Track(), description="Course of the track; straight and level if left out.")
+    other_wires: tuple[OtherWire, ...] = Field(
+        default=(), description="Stitch wires, auxiliary messengers, second wires. Not solved yet."
+    )
+    solver: Solver = Field(default=Solver(), description="How the line is meshed and solved.")
+
+    _source: Source = PrivateAttr(default_factory=Source)
+
+    def model_post_init(self, context: Any, /) -> None:
+        """Keep the places in the file, which the reader hands over as context of the validation."""
+        if isinstance(context, Source):
+            self._source = context
+
+    @field_validator("format", mode="before")
+    @classmethod
+    def _whole_number(cls, value: object) -> object:
+        """In Python, and therefore in pydantic's eyes, 1 is the same as true and as 1.0."""
+        if type(value) is not int:
+            raise PydanticCustomError("value", "{allowed}", {"allowed": "1"})
+        return value
+
+    @field_validator("supports", mode="after")
+    @classmethod
+    def _numbered(cls, supports: tuple[Support, ...]) -> tuple[Support, ...]:
+        """Name the supports that have no name by their number."""
+        return tuple(
+            support if support.name else support.model_copy(update={"name": f"S{number}"})
+            for number, support in enumerate(supports, start=1)
+        )
+
+    @model_validator(mode="after")
+    def _consistent(self) -> Line:
+        refuse("Line", line_problems(self))
+        return self
+
+    @property
+    def source(self) -> Source:
+        """Where in its file the parts of the line stand."""
+        return self._source
+
+    @property
+    def length(self) -> float:
+        """Distance from the first to the last support [m]."""
+        return self.support_x[-1] - self.support_x[0]
+
+    @property
+    def support_x(self) -> tuple[float, ...]:
+        """Position of every support along the track [m]."""
+        return tuple(accumulate((span.length for span in self.spans), initial=self.start_chainage))
+
+    @property
+    def dropper_x(self) -> tuple[float, ...]:
+        """Position of every dropper along the track, in order [m]."""
+        return tuple(
+            start + x
+            for start, span in zip(self.support_x, self.spans, strict=False)
+            for x in span.droppers.x
+        )
+
+    @property
+    def dropper_span(self) -> tuple[int, ...]:
+        """Index of the span of every dropper."""
+        return tuple(i for i, span in enumerate(self.spans) for _ in span.droppers.x)
+
+    @property
+    def dropper_target_height(self) -> tuple[float, ...]:
+        """Wanted height of the contact wire at every dropper [m]."""
+        return tuple(height for span in self.spans for height in span.heights)
+
+    @property
+    def contact_support_indices(self) -> tuple[int, ...]:
+        """Indices of the supports that hold the contact wire."""
+        return tuple(i for i, support in enumerate(self.supports) if support.contact_wire is not None)

@@ -1,0 +1,84 @@
+"""From a file to a `Line`, or to a list of everything that is wrong with the file."""
+
+from __future__ import annotations
+
+import copy
+from pathlib import Path as FilePath
+from typing import Any, cast
+
+from pydantic import ValidationError
+from pydantic_core import ErrorDetails
+
+from catenaria.errors import LineFileError
+from catenaria.line.base import Path
+from catenaria.line.faults import faults_of, place_of, value_at
+from catenaria.line.line import Line
+from catenaria.line.reading import read_tree
+from catenaria.units import UNKNOWN
+
+
+def load_line(path: str | FilePath) -> Line:
+    """Read and check a line file.
+
+    Parameters
+    ----------
+    path : str or pathlib.Path
+        A YAML file, or a JSON file with the suffix ``.json``.
+
+    Returns
+    -------
+    Line
+        With every quantity in SI.
+
+    Raises
+    ------
+    LineFileError
+        With one `Fault` for each thing that is wrong, in the order of the file.
+    """
+    tree, source = read_tree(FilePath(path))
+    try:
+        return Line.model_validate(tree, context=source)
+    except ValidationError as error:
+        problems = _all_problems(tree, error)
+    raise LineFileError(faults_of(problems, tree, source))
+
+
+def _all_problems(tree: object, error: ValidationError) -> dict[Path, ErrorDetails]:
+    """Collect the problems behind the problems.
+
+    What does not fit together is found only where the parts are right. Values whose fault is known are
+    therefore replaced by an unknown that fits wherever a quantity does, and the rest is checked again until
+    nothing new appears.
+    """
+    tree = copy.deepcopy(tree)
+    problems: dict[Path, ErrorDetails] = {}
+    while True:
+        found = {place_of(problem): problem for problem in error.errors(include_url=False)}
+        new = {place: problem for place, problem in found.items() if not _is_known(place, problems)}
+        if not new:
+            return problems
+        problems |= new
+        for place, problem in new.items():
+            _neutralise(tree, place, problem["type"])
+        try:
+            Line.model_validate(tree)
+        except ValidationError as behind:
+            error = behind
+        else:
+            return problems
+
+
+def _is_known(place: Path, problems: dict[Path, ErrorDetails]) -> bool:
+    return any(place[:depth] in problems for depth in range(len(place) + 1))
+
+
+def _neutralise(tree: object, place: Path, kind: str) -> None:
+    """Put an unknown in the place of a faulty value, or take away what has a default."""
+    if not place:
+        return
+    parent = value_at(tree, place[:-1])
+    key: Any = place[-1]
+    if isinstance(parent, dict) and kind not in ("quantity", "missing", "value"):
+        cast("dict[str, object]", parent).pop(key, None)
+    elif isinstance(parent, dict | list):
+        cast("dict[str, object]", parent)[key] = UNKNOWN

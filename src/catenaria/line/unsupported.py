@@ -1,0 +1,68 @@
+"""Refusal by name of what can be described but is not solved yet."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from catenaria.errors import UnsupportedError
+from catenaria.line.base import Path
+from catenaria.line.line import Line
+from catenaria.line.source import format_path
+from catenaria.line.support import Support
+
+
+def refuse_unsupported(line: Line) -> None:
+    """Refuse a line that asks for something that no method solves yet.
+
+    Parameters
+    ----------
+    line : Line
+        The line.
+
+    Raises
+    ------
+    UnsupportedError
+        With one line of text for each such thing: file, line, column, field and what is solved instead.
+    """
+    found = sorted(_unsupported(line), key=lambda item: line.source.mark(item[0]))
+    complaints = [_complaint(line, path, what) for path, what in found]
+    if complaints:
+        raise UnsupportedError("\n".join(complaints))
+
+
+def _complaint(line: Line, path: Path, what: str) -> str:
+    source = line.source
+    row, column = source.mark(path)
+    where = f"{source.file}:{row}:{column}: " if row else ""
+    return f"{where}{format_path(path)}: {what} is not solved yet"
+
+
+def _unsupported(line: Line) -> Iterator[tuple[Path, str]]:
+    yield from _wires(line)
+    for i, support in enumerate(line.supports):
+        for field, what in _support(support):
+            yield ("supports", i, *field), what
+    for i, span in enumerate(line.spans):
+        if span.pre_sag != 0.0:
+            yield ("spans", i, "pre_sag"), "a pre-sag other than 0 (a list of heights is)"
+    if line.track.curves:
+        yield ("track", "curves"), "a curved track"
+    if line.track.gradients:
+        yield ("track", "gradients"), "a track with gradients"
+
+
+def _wires(line: Line) -> Iterator[tuple[Path, str]]:
+    for field, wire in (("contact_wire", line.contact_wire), ("messenger_wire", line.messenger_wire)):
+        if wire.tension.pulled != "both":
+            yield (field, "tension", "pulled"), f"a wire that is pulled at its {wire.tension.pulled} only"
+    for i, wire in enumerate(line.other_wires):
+        yield ("other_wires", i), f"a {wire.kind} wire besides contact and messenger wire"
+
+
+def _support(support: Support) -> Iterator[tuple[Path, str]]:
+    if support.contact_wire is not None and support.contact_wire.kind != "sliding":
+        yield ("contact_wire", "kind"), f"a {support.contact_wire.kind}"
+    if support.messenger_wire.kind != "sliding":
+        yield ("messenger_wire", "kind"), f"a {support.messenger_wire.kind} messenger support"
+    if support.stagger != 0.0:
+        yield ("stagger",), "a stagger other than 0"

@@ -1,0 +1,54 @@
+"""Write all figures of a result into a folder."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+from matplotlib.figure import Figure
+
+from catenaria.report import history_figures, line_figures, style
+from catenaria.results import FormResult
+
+
+def write_figures(result: FormResult, folder: str | os.PathLike[str]) -> tuple[Path, ...]:
+    """Draw every figure that a result has data for.
+
+    Parameters
+    ----------
+    result : FormResult
+        The result.
+    folder : path
+        Where the PNG files go; it is made if need be.
+
+    Returns
+    -------
+    tuple of Path
+        The files. A method without dynamic steps has no figures over time.
+    """
+    folder = Path(folder)
+    folder.mkdir(parents=True, exist_ok=True)
+    figures = _line_figures(result) | (_history_figures(result) if result.histories else {})
+    return tuple(style.save(figure, folder / f"{name}.png") for name, figure in figures.items())
+
+
+def _line_figures(result: FormResult) -> dict[str, Figure]:
+    tensions = {
+        f"{wire.name.removesuffix(' wire')}_tension": line_figures.tension_figure(result, wire)
+        for wire in result.wires
+    }
+    return {
+        "configurations": line_figures.configuration_figure(result),
+        "contact_wire": line_figures.contact_wire_figure(result),
+        "moments": line_figures.moment_figure(result),
+        **tensions,
+    }
+
+
+def _history_figures(result: FormResult) -> dict[str, Figure]:
+    return {
+        "tensions": history_figures.support_tension_figure(result),
+        "controls": history_figures.velocity_figure(result),
+        "errors": history_figures.error_figure(result),
+        "energy": history_figures.energy_figure(result),
+    }

@@ -1,0 +1,126 @@
+"""Figures over simulated time: what the controls did (Figs. 10 and 21 of Yang et al. 2017), and the energies.
+
+Each dynamic step has a column of panels of its own, because each counts its time from zero.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from catenaria.report import style
+from catenaria.results import FormResult, History
+
+_TIME = "simulated time [s]"
+_MOST_JOINTS = 6
+_DASHES = ("-", "--", ":", "-.")
+_ERROR_FLOOR = 1e-2  # of a dead band: smaller errors say nothing
+_ENERGY_FLOOR = 1e-12  # of the largest energy: rounding
+
+
+def support_tension_figure(result: FormResult) -> Figure:
+    """Draw the tensions of both wires at their joints while they are controlled, as in Fig. 21."""
+    text = (
+        "N = EA ε of eq. (11) is read at a support; a tensioning device pulls each wire end (mean of both)."
+    )
+    figure, [panels] = _by_step(result, "Tensions at the supports during the controls", text, [3.8])
+    targets = {wire.name: 1e-3 * wire.target_tension for wire in result.wires}
+    for axes, history, title in zip(panels, result.histories, _titles(result), strict=True):
+        device = 1e-3 * history.reaction.mean(axis=1)
+        style.line(axes, history.time, device, style.PALE, "tensioning device", width=5.0)
+        _joint_lines(axes, history)
+        style.level(axes, targets[history.step], f"wanted: {targets[history.step]:.3f} kN")
+        style.describe(axes, title, _TIME, "tension [kN]")
+        style.legend(axes, 2)
+    return figure
+
+
+def velocity_figure(result: FormResult) -> Figure:
+    """Draw the velocities of all controls, as in Fig. 10."""
+    text = (
+        "Each control moves a wire end or a dropper end, and rests while its error is within the dead band."
+    )
+    figure, rows = _by_step(result, "Velocities of the controls", text, [2.3, 2.3])
+    for i, (history, title) in enumerate(zip(result.histories, _titles(result), strict=True)):
+        pulls = _pulls(history)
+        velocity = 1e3 * history.velocity
+        style.line(rows[0][i], history.time, velocity[:, pulls].mean(axis=1), style.BLUE, "outwards")
+        style.lines(rows[1][i], history.time, velocity[:, ~pulls], style.GREEN, "each dropper")
+        for axes, moved in ((rows[0][i], "wire ends"), (rows[1][i], "dropper ends")):
+            style.describe(axes, f"{title}, {moved}", _TIME, "velocity [mm/s]")
+            style.legend(axes, 1)
+    return figure
+
+
+def error_figure(result: FormResult) -> Figure:
+    """Draw the sizes of all control errors with their dead bands."""
+    text = (
+        "Size of the errors. The control law approaches a dead band from outside and never quite enters it."
+    )
+    figure, rows = _by_step(result, "Errors of the controls", text, [2.3, 2.3])
+    bands = dict(zip(result.controls.name, result.controls.dead_band, strict=True))
+    for i, (history, title) in enumerate(zip(result.histories, _titles(result), strict=True)):
+        pulls = _pulls(history)
+        band = np.array([bands[name] for name in history.control_name])
+        in_metres = history.control_unit[-1] == "m"
+        height_or_force = (1e3, "height error", "mm") if in_metres else (1.0, "force error", "N")
+        for axes, chosen, (scale, quantity, unit) in (
+            (rows[0][i], pulls, (1.0, "tension error", "N")),
+            (rows[1][i], ~pulls, height_or_force),
+        ):
+            error = np.abs(scale * history.error[:, chosen])
+            _error_lines(axes, history, error, scale * float(band[chosen].max()), unit)
+            style.describe(axes, f"{title}, {quantity}", _TIME, f"{quantity} [{unit}]")
+            style.legend(axes, 3)
+    return figure
+
+
+def energy_figure(result: FormResult) -> Figure:
+    """Draw the energies (7) and (8)."""
+    text = "Kinetic energy, eq. (7), and the axial and bending parts of the strain energy, eq. (8)."
+    figure, [panels] = _by_step(result, "Energies", text, [3.4])
+    for axes, history, title in zip(panels, result.histories, _titles(result), strict=True):
+        energies = {"axial": history.axial, "bending": history.bending, "kinetic": history.kinetic}
+        floor = _ENERGY_FLOOR * max(float(energy.max()) for energy in energies.values())
+        style.logarithmic(axes)
+        for colour, (name, energy) in zip(style.CYCLE, energies.items(), strict=False):
+            style.line(axes, history.time, np.where(energy > floor, energy, np.nan), colour, name)
+        style.describe(axes, title, _TIME, "energy [J]")
+        style.legend(axes, 3)
+    return figure
+
+
+def _by_step(
+    result: FormResult, title: str, text: str, heights: list[float]
+) -> tuple[Figure, list[list[Axes]]]:
+    return style.new_figure(title, text, heights, columns=len(result.histories))
+
+
+def _titles(result: FormResult) -> list[str]:
+    return [f"step {i}: {history.step}" for i, history in enumerate(result.histories, start=1)]
+
+
+def _pulls(history: History) -> NDArray[np.bool_]:
+    """Tell the controls of wire ends from those of droppers."""
+    return np.array([name.endswith("tension") for name in history.control_name])
+
+
+def _joint_lines(axes: Axes, history: History) -> None:
+    tension = 1e-3 * history.joint_tension
+    if len(history.joint_name) > _MOST_JOINTS:
+        style.lines(axes, history.time, tension, style.SKY, "N at each support")
+        return
+    for i, name in enumerate(history.joint_name):
+        dashes = _DASHES[i % len(_DASHES)]  # symmetric lines coincide
+        style.line(axes, history.time, tension[:, i], style.CYCLE[i], f"N at {name}", style=dashes)
+
+
+def _error_lines(axes: Axes, history: History, error: NDArray[np.float64], band: float, unit: str) -> None:
+    size = np.maximum(error, _ERROR_FLOOR * band)
+    style.logarithmic(axes)
+    if size.shape[1] > 1:
+        style.lines(axes, history.time, size, style.SKY, "each dropper")
+    style.line(axes, history.time, size.max(axis=1), style.BLUE, "largest" if size.shape[1] > 1 else "")
+    style.level(axes, band, f"dead band {band:g} {unit}")

@@ -1,0 +1,96 @@
+"""Figures over the length of the line, as Figs. 22 to 25 of Yang et al. 2017, and the bending moments."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from catenaria.report import style
+from catenaria.results import FormResult, WireForm
+
+_ALONG = "distance along the track [m]"
+_MOST_LENGTHS = 45  # more dropper lengths than these would be written over each other
+
+
+def contact_wire_figure(result: FormResult) -> Figure:
+    """Draw the shape of the contact wire with its droppers, as in Fig. 22."""
+    wire, droppers = result.wires[0], result.droppers
+    datum = float(droppers.target_height[0])
+    text = (
+        f"Height is counted from {datum:.3f} m, the wanted height at the first dropper. "
+        f"Largest sag between two droppers: {1e3 * wire.sag:.2f} mm."
+    )
+    figure, [[axes]] = style.new_figure(f"Shape of the {wire.name} in equilibrium", text, [3.4])
+    style.line(axes, wire.profile.x, 1e3 * (wire.profile.z - datum), style.RED, wire.name)
+    style.points(axes, droppers.x, 1e3 * (droppers.height - datum), style.DARK, "dropper")
+    style.describe(axes, "", _ALONG, "height [mm]")
+    style.mark_supports(axes, _supports(result, wire))
+    style.legend(axes, 2)
+    style.state_exaggeration(axes, y_unit=1e-3)
+    return figure
+
+
+def configuration_figure(result: FormResult) -> Figure:
+    """Draw the starting and the found configuration with all droppers, as in Fig. 23."""
+    droppers = result.droppers
+    few = len(droppers.x) <= _MOST_LENGTHS
+    where = "are written beside them, in metres" if few else "are in droppers.csv"
+    figure, [[start], [final]] = style.new_figure(
+        "Starting configuration and equilibrium", f"The lengths of the droppers {where}.", [2.0, 3.4]
+    )
+    ends = [np.interp(droppers.x, wire.start_x, wire.start_z) for wire in result.wires]
+    for wire in result.wires:
+        colour = style.WIRE_COLOURS.get(wire.name, style.GREY)
+        style.line(start, wire.start_x, wire.start_z, colour, wire.name)
+        style.line(final, wire.profile.x, wire.profile.z, colour, wire.name)
+    style.bars(start, droppers.x, ends[0], ends[-1], "dropper")
+    style.bars(final, droppers.x, droppers.height, droppers.messenger_height, "dropper")
+    if few:
+        middles = 0.5 * (droppers.height + droppers.messenger_height)
+        for x, y, length in zip(droppers.x, middles, droppers.length, strict=True):
+            style.write_beside(final, float(x), float(y), f"{length:.3f}")
+    for axes, title in ((start, "(a) starting configuration"), (final, "(b) equilibrium")):
+        style.describe(axes, title, _ALONG, "height [m]")
+        style.mark_supports(axes, _supports(result, result.wires[-1]))
+        style.legend(axes, 3)
+        style.state_exaggeration(axes, y_unit=1.0)
+    return figure
+
+
+def tension_figure(result: FormResult, wire: WireForm) -> Figure:
+    """Draw the tension along a wire, as in Figs. 24 and 25."""
+    profile, colour = wire.profile, style.WIRE_COLOURS.get(wire.name, style.DARK)
+    text = (
+        f"Tension is the axial force EA ε |r'|. Between the end supports it is "
+        f"{wire.tension_min:.1f} N to {wire.tension_max:.1f} N."
+    )
+    figure, [[axes]] = style.new_figure(f"Tension along the {wire.name} in equilibrium", text, [3.6])
+    style.line(axes, profile.x, 1e-3 * profile.strain_tension, style.GREY, "N = EA ε, eq. (11)", width=0.8)
+    style.line(axes, profile.x, 1e-3 * profile.tension, colour, "tension")
+    style.level(axes, 1e-3 * wire.tension_mean, f"mean {1e-3 * wire.tension_mean:.3f} kN")
+    style.describe(axes, "", _ALONG, "tension [kN]")
+    style.mark_supports(axes, _supports(result, wire))
+    style.mark_droppers(axes, result.droppers.x)
+    style.legend(axes, 4)
+    return figure
+
+
+def moment_figure(result: FormResult) -> Figure:
+    """Draw the bending moment along every wire."""
+    heights = [2.2] * len(result.wires)
+    figure, rows = style.new_figure("Bending moments in equilibrium", "Size of EJ κ, without sign.", heights)
+    for wire, [axes] in zip(result.wires, rows, strict=True):
+        moment = wire.profile.moment
+        style.line(axes, wire.profile.x, moment, style.WIRE_COLOURS.get(wire.name, style.DARK), width=1.0)
+        style.describe(axes, f"{wire.name}: up to {moment.max():.3g} N m", _ALONG, "moment [N m]")
+        axes.set_ylim(bottom=0.0)
+        style.mark_supports(axes, _supports(result, wire))
+        style.mark_droppers(axes, result.droppers.x)
+        style.legend(axes, 1)
+    return figure
+
+
+def _supports(result: FormResult, wire: WireForm) -> dict[str, float]:
+    """Positions by name of the supports that hold a wire."""
+    held = zip(result.supports.support, result.supports.wire, result.supports.x, strict=True)
+    return {name: float(x) for name, of, x in held if of == wire.name}

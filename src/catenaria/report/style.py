@@ -1,0 +1,205 @@
+"""One look for all figures, set on each figure itself and never on matplotlib's global parameters.
+
+Colours are those of Okabe and Ito (2008), which remain distinct with every kind of colour blindness. Margins
+are fixed, because matplotlib's automatic layouts draw every figure twice. All calls of matplotlib that take style
+arguments are in this file, because matplotlib does not declare their types.
+"""
+
+# pyright: reportUnknownMemberType=false
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+FloatArray = NDArray[np.float64]
+
+BLUE, ORANGE, GREEN, RED, PURPLE, SKY = "#0072B2", "#E69F00", "#009E73", "#D55E00", "#CC79A7", "#56B4E9"
+CYCLE = (BLUE, RED, GREEN, ORANGE, PURPLE, SKY)
+DARK, GREY, PALE = "#222222", "#666666", "#DDDDDD"
+WIRE_COLOURS = {"contact wire": RED, "messenger wire": BLUE}
+
+DOTS_PER_INCH = 150
+_INK = 10.0  # font size [pt]
+_WIDTH = 10.0  # of a figure [inch]; so are the margins
+_LEFT, _RIGHT, _TOP, _BOTTOM, _BETWEEN = 0.9, 0.25, 1.2, 0.62, 1.05
+_MOST_LINES = 60
+_MOST_NAMES = 16
+
+
+def new_figure(
+    title: str, subtitle: str, heights: Sequence[float], columns: int = 1
+) -> tuple[Figure, list[list[Axes]]]:
+    """Make a figure with a grid of panels.
+
+    Parameters
+    ----------
+    title, subtitle : str
+        What the figure shows, and what one must know to read it.
+    heights : sequence of float
+        Height of each row of panels [inch].
+    columns : int
+        Number of panels in a row.
+
+    Returns
+    -------
+    Figure
+        Not registered with pyplot.
+    list of list of Axes
+        Panels by row and column.
+    """
+    height = _TOP + sum(heights) + _BETWEEN * (len(heights) - 1) + _BOTTOM
+    pitch = (_WIDTH - _RIGHT) / columns
+    figure = Figure(figsize=(_WIDTH, height), facecolor="white")
+    panels: list[list[Axes]] = []
+    top = height - _TOP
+    for row in heights:
+        size = ((pitch - _LEFT) / _WIDTH, row / height)
+        lefts = [(_LEFT + i * pitch) / _WIDTH for i in range(columns)]
+        panels.append([figure.add_axes((left, (top - row) / height, *size)) for left in lefts])
+        top -= row + _BETWEEN
+    figure.text(0.02, 1 - 0.35 / height, title, fontsize=_INK + 4, fontweight="bold", color=DARK)
+    figure.text(0.02, 1 - 0.62 / height, subtitle, fontsize=_INK, color=GREY)
+    return figure, panels
+
+
+def describe(axes: Axes, title: str, x: str, y: str) -> None:
+    """Write the title of a panel and the quantity and unit of its axes, and draw a quiet grid."""
+    axes.set_title(title, loc="left", fontsize=_INK + 1, color=DARK, pad=17)
+    axes.set_xlabel(x, fontsize=_INK, color=DARK)
+    axes.set_ylabel(y, fontsize=_INK, color=DARK)
+    axes.tick_params(labelsize=_INK - 1, color=GREY, labelcolor=DARK)
+    axes.grid(visible=True, color=PALE, linewidth=0.6)
+    axes.set_axisbelow(True)
+    axes.spines[["top", "right"]].set_visible(False)
+    axes.margins(x=0.01, y=0.08)
+    if axes.get_yscale() == "linear":
+        axes.ticklabel_format(axis="y", useOffset=False)
+
+
+def logarithmic(axes: Axes) -> None:
+    """Give a panel a logarithmic vertical scale."""
+    axes.set_yscale("log")
+
+
+def line(
+    axes: Axes,
+    x: FloatArray,
+    y: FloatArray,
+    colour: str,
+    label: str = "",
+    *,
+    width: float = 1.6,
+    style: str = "-",
+) -> None:
+    """Draw one line; without a label it is not in the legend."""
+    axes.plot(x, y, color=colour, label=label or "_", linewidth=width, linestyle=style)
+
+
+def lines(axes: Axes, x: FloatArray, y: FloatArray, colour: str, label: str) -> None:
+    """Draw the columns of `y` as thin lines under one label; if there are very many, only some."""
+    count = y.shape[1]
+    stride = -(-count // _MOST_LINES)
+    text = label if stride == 1 else f"{label} (one in {stride} shown)"
+    for i in range(0, count, stride):
+        line(axes, x, y[:, i], colour, "" if i else text, width=0.6)
+
+
+def points(axes: Axes, x: FloatArray, y: FloatArray, colour: str, label: str) -> None:
+    """Draw separate points."""
+    axes.plot(x, y, color=colour, label=label, linestyle="", marker="o", markersize=4.0, zorder=3)
+
+
+def bars(axes: Axes, x: FloatArray, low: FloatArray, high: FloatArray, label: str) -> None:
+    """Draw a vertical line from `low` to `high` at each x."""
+    axes.vlines(x, low, high, color=GREEN, linewidth=1.2, label=label, zorder=1.5)
+
+
+def write_beside(axes: Axes, x: float, y: float, text: str) -> None:
+    """Write upright text to the left of a point, centred on it."""
+    axes.text(x, y, text, rotation=90, ha="right", va="center", fontsize=_INK - 1.5, color=DARK)
+
+
+def level(axes: Axes, y: float, label: str) -> None:
+    """Draw a horizontal line across a panel."""
+    axes.axhline(y, color=DARK, linewidth=1.1, linestyle=(0, (4, 3)), label=label, zorder=1.5)
+
+
+def mark_supports(axes: Axes, supports: Mapping[str, float]) -> None:
+    """Mark supports by a dashed line, with their name above it unless there are many."""
+    for name, x in supports.items():
+        axes.axvline(x, color=GREY, linewidth=0.8, linestyle=(0, (5, 4)), zorder=1)
+        if len(supports) <= _MOST_NAMES:
+            axes.annotate(
+                name,
+                (x, 1.0),
+                (0, 4),
+                xycoords=axes.get_xaxis_transform(),
+                textcoords="offset points",
+                ha="center",
+                fontsize=_INK - 1,
+                color=GREY,
+            )
+
+
+def mark_droppers(axes: Axes, x: FloatArray) -> None:
+    """Mark droppers by a triangle at the lower edge."""
+    axes.plot(
+        x,
+        0.0 * x,
+        color=DARK,
+        label="dropper",
+        linestyle="",
+        marker="^",
+        markersize=5.0,
+        zorder=3,
+        transform=axes.get_xaxis_transform(),
+        clip_on=False,
+    )
+
+
+def legend(axes: Axes, columns: int) -> None:
+    """Add a legend of all labelled lines above the data, for which the panel is extended upwards."""
+    rows = -(-len(axes.get_legend_handles_labels()[1]) // columns)
+    part = (0.08 + 0.2 * rows) / _inches(axes)[1]
+    scale = axes.get_yaxis().get_transform()
+    low, high = scale.transform(np.array(axes.get_ylim()))
+    bottom, top = scale.inverted().transform(np.array([low, high + (high - low) * part / (1.0 - part)]))
+    axes.set_ylim(float(bottom), float(top))
+    axes.legend(
+        loc="upper right",
+        ncols=columns,
+        fontsize=_INK - 1,
+        facecolor="white",
+        edgecolor="none",
+        framealpha=1.0,
+        borderaxespad=0.2,
+        handlelength=1.6,
+        columnspacing=1.2,
+    )
+
+
+def state_exaggeration(axes: Axes, y_unit: float) -> None:
+    """Add to the lower label how much larger the vertical scale is; `y_unit` is the unit of y in metres."""
+    wide, high = _inches(axes)
+    (x0, x1), (y0, y1) = axes.get_xlim(), axes.get_ylim()
+    factor = high / (y_unit * (y1 - y0)) * (x1 - x0) / wide
+    axes.set_xlabel(
+        f"{axes.get_xlabel()}; vertical scale {float(f'{factor:.2g}'):g} times the horizontal one"
+    )
+
+
+def save(figure: Figure, file: Path) -> Path:
+    """Write a figure as PNG without anything in it that depends on the day or the program's version."""
+    figure.savefig(file, dpi=DOTS_PER_INCH, metadata={"Software": None}, pil_kwargs={"compress_level": 3})
+    return file
+
+
+def _inches(axes: Axes) -> tuple[float, float]:
+    box, (wide, high) = axes.get_position(), axes.figure.get_figure(root=True).get_size_inches()
+    return box.width * wide, box.height * high

@@ -1,0 +1,155 @@
+"""Replace a whole output folder at once, and nobody else's files.
+
+A new folder is filled beside the old one under a hidden name and takes its place by renaming, so an
+interruption leaves the old folder or the new one. A manifest lists every file with its SHA-256: a later run
+replaces a folder only if each file in it is listed there and unchanged. Files that somebody added or edited
+are therefore never deleted; the run is refused instead, and says which file stands in the way.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import secrets
+import shutil
+from collections.abc import Generator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any, cast
+
+from catenaria.errors import InconsistentInputError
+
+MANIFEST_NAME = "manifest.json"
+_FORMAT = "catenaria output folder"
+
+
+@contextmanager
+def replace_folder(folder: str | os.PathLike[str]) -> Generator[Path, None, None]:
+    """Fill a new folder that takes the place of `folder` when the block ends without an exception.
+
+    Parameters
+    ----------
+    folder : path
+        Does not exist yet, is empty, or was written through this function and not touched since.
+
+    Yields
+    ------
+    Path
+        The folder to write into; it is removed when the block fails or is interrupted.
+
+    Raises
+    ------
+    InconsistentInputError
+        If `folder` holds anything else (see `require_replaceable`).
+
+    Notes ----- Two renamings exchange the folders. An exception between them, Ctrl-C included, puts the old
+    folder back; if the computer itself stops at that moment, old and new folder are both complete, under
+    hidden names beside `folder`.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> parent = tempfile.TemporaryDirectory()
+    >>> with replace_folder(Path(parent.name) / "run") as new:
+    ...     _ = (new / "note.txt").write_text("complete")
+    >>> sorted(path.name for path in (Path(parent.name) / "run").iterdir())
+    ['manifest.json', 'note.txt']
+    >>> parent.cleanup()
+    """
+    target = require_replaceable(folder)
+    target.parent.mkdir(parents=True, exist_ok=True)
+    token = secrets.token_hex(4)
+    new = target.with_name(f".{target.name}.{token}.new")
+    try:
+        new.mkdir()
+        yield new
+        _write_manifest(new)
+        _exchange(new, require_replaceable(target), target.with_name(f".{target.name}.{token}.old"))
+    finally:
+        shutil.rmtree(new, ignore_errors=True)
+
+
+def require_replaceable(folder: str | os.PathLike[str]) -> Path:
+    """Refuse a folder that `replace_folder` must not replace; ask before a long computation, not after it.
+
+    Parameters
+    ----------
+    folder : path
+        The folder that is to be replaced.
+
+    Returns
+    -------
+    Path
+        The folder, absolute and with links resolved.
+
+    Raises
+    ------
+    InconsistentInputError
+        If it is a file, contains the current working folder, or holds a file that is not listed in its
+        manifest or was changed since.
+    """
+    target = Path(folder).resolve()
+    if not target.exists():
+        return target
+    if not target.is_dir():
+        raise InconsistentInputError(f"{folder} is a file. Name a folder for the output")
+    if Path.cwd().is_relative_to(target):
+        raise InconsistentInputError(f"{folder} contains the current working folder. Name another folder")
+    foreign = _foreign_file(target)
+    if foreign is not None:
+        raise InconsistentInputError(
+            f"{folder} is left as it is: {foreign} in it was not written by catenaria, or was changed since. "
+            "Move that file away, or name another folder"
+        )
+    return target
+
+
+def _foreign_file(folder: Path) -> str | None:
+    """Path of one file that no manifest accounts for, or None."""
+    digests = _read_manifest(folder)
+    if digests is None:  # do not search what may be a large folder of somebody else
+        return next((path.name for path in folder.iterdir()), None)
+    for path in sorted(folder.rglob("*")):
+        name = path.relative_to(folder).as_posix()
+        if name == MANIFEST_NAME or (path.is_dir() and not path.is_symlink()):
+            continue
+        if path.is_symlink() or digests.get(name) != _digest(path):
+            return name
+    return None
+
+
+def _read_manifest(folder: Path) -> dict[str, Any] | None:
+    try:
+        manifest: Any = json.loads((folder / MANIFEST_NAME).read_bytes())
+    except (OSError, ValueError):
+        return None
+    if not isinstance(manifest, dict) or cast(dict[str, Any], manifest).get("format") != _FORMAT:
+        return None
+    files: Any = cast(dict[str, Any], manifest).get("files")
+    return cast(dict[str, Any], files) if isinstance(files, dict) else None
+
+
+def _write_manifest(folder: Path) -> None:
+    files = sorted(path for path in folder.rglob("*") if path.is_file())
+    digests = {path.relative_to(folder).as_posix(): _digest(path) for path in files}
+    text = json.dumps({"format": _FORMAT, "files": digests}, indent=1, ensure_ascii=False)
+    (folder / MANIFEST_NAME).write_text(text + "\n", encoding="utf-8")
+
+
+def _digest(file: Path) -> str:
+    return hashlib.sha256(file.read_bytes()).hexdigest()
+
+
+def _exchange(new: Path, target: Path, aside: Path) -> None:
+    if not target.exists():
+        new.rename(target)
+        return
+    try:
+        target.rename(aside)
+        new.rename(target)
+    finally:
+        if target.exists():
+            shutil.rmtree(aside, ignore_errors=True)
+        else:
+            aside.rename(target)

@@ -1,0 +1,161 @@
+"""Modified Newton iteration for the equations of one BDF step, eq. (27), with kept factorisations."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+
+from catenaria.solvers.linear import Factorisation, factorise, index3_scaling
+from catenaria.solvers.outcome import NO_WORK, Counters
+from catenaria.solvers.problem import DaeProblem, FloatArray
+
+MAX_ITERATIONS = 6
+MAX_RESELECTIONS = 8
+D0_BAND = 0.3  # relative change of d0 that a kept factorisation survives
+SLOW = 0.3  # contraction rate above which the next step begins with a new factorisation
+DIVERGING = 0.9
+UNKNOWN_RATE = 0.3  # taken for granted at the first iteration, whatever was seen before: matrices age
+
+
+class StepEquations(NamedTuple):
+    """y' = d0 y + a, eq. (26), and y'' = d0 y' + b at time t; a and b come from past values."""
+
+    t: float
+    d0: float
+    a: FloatArray
+    b: FloatArray
+
+    def rates(self, y: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return y' and y''."""
+        yd = self.d0 * y + self.a
+        return yd, self.d0 * yd + self.b
+
+
+@dataclass(frozen=True)
+class Linearisation:
+    """Factorised Newton matrix with where it belongs and the largest contraction rate seen, 0 if none."""
+
+    problem: DaeProblem
+    d0: float
+    factorisation: Factorisation
+    rate: float = 0.0
+
+    def fits(self, problem: DaeProblem, d0: float) -> bool:
+        """Say whether the factorisation is worth trying for this problem and leading coefficient."""
+        return self.problem is problem and abs(d0 / self.d0 - 1.0) <= D0_BAND and self.rate <= SLOW
+
+
+@dataclass(frozen=True)
+class Correction:
+    """Outcome of a step's equations; y has no meaning if there is a failure."""
+
+    y: FloatArray
+    problem: DaeProblem
+    linearisation: Linearisation | None
+    work: Counters
+    failure: str | None = None
+
+
+def correct(
+    problem: DaeProblem, equations: StepEquations, predicted: FloatArray, kept: Linearisation | None
+) -> Correction:
+    """Solve the equations of a step and bring the discrete state in line with the solution.
+
+    Parameters
+    ----------
+    problem : DaeProblem
+        The system with the discrete state of the last step.
+    equations : StepEquations
+        The step.
+    predicted : FloatArray, shape (n,)
+        First iterate.
+    kept : Linearisation, optional
+        Factorisation of an earlier step.
+
+    Returns
+    -------
+    Correction
+        With the problem that `reselect` chose last. Two discrete states that point at each other, as they
+        may on the border between them, end the search after a few rounds: both fit there.
+    """
+    result = _correct_once(problem, equations, predicted, kept)
+    for _ in range(MAX_RESELECTIONS):
+        selected = None if result.failure else result.problem.reselect(result.y)
+        if selected is None:
+            break
+        again = _correct_once(selected, equations, result.y, None)
+        result = replace(again, work=again.work.plus(result.work).plus(Counters(reselections=1)))
+    return result
+
+
+def _correct_once(
+    problem: DaeProblem, equations: StepEquations, y: FloatArray, kept: Linearisation | None
+) -> Correction:
+    """Iterate with the kept factorisation if it fits, and with a new one if that is not good enough."""
+    work = NO_WORK
+    if kept is not None and kept.fits(problem, equations.d0):
+        result = _iterate(equations, y, kept)
+        if result.failure is None:
+            return result
+        work = result.work
+    yd, ydd = equations.rates(y)
+    d0 = equations.d0
+    matrix = problem.jacobian(equations.t, y, yd, ydd, d0, d0 * d0)
+    work = work.plus(Counters(jacobians=1, factorisations=1))
+    try:
+        factorisation = factorise(matrix, index3_scaling(matrix, problem.order_of, problem.constraint))
+    except np.linalg.LinAlgError as error:
+        return Correction(y, problem, None, work, str(error))
+    result = _iterate(equations, y, Linearisation(problem, d0, factorisation))
+    return replace(result, work=work.plus(result.work))
+
+
+def _iterate(equations: StepEquations, y: FloatArray, linearisation: Linearisation) -> Correction:
+    """Newton iteration with a fixed matrix; ends by the estimate rate/(1 - rate) of the remaining error.
+
+    References
+    ----------
+    Hairer & Wanner 1996, section IV.8, eq. (8.10); Hindmarsh et al. 2005, section 2.2.
+    """
+    problem, solve = linearisation.problem, linearisation.factorisation.solve
+    damping, mismatch = _account_for_d0(linearisation.d0, equations.d0, int(problem.order_of.max()))
+    floor = max(linearisation.rate, mismatch)
+    rate = max(floor, UNKNOWN_RATE)
+    inverse_scale = 1.0 / problem.newton_scale
+    failure: str | None = "Newton's method converges too slowly"
+    observed = linearisation.rate
+    size = previous = 0.0
+    iteration = 0
+    for iteration in range(1, MAX_ITERATIONS + 1):
+        residual = problem.residual(equations.t, y, *equations.rates(y))
+        correction = solve(residual) * -damping
+        y = y + correction
+        previous, size = size, float(np.abs(correction * inverse_scale).max())
+        if not np.isfinite(size):
+            failure = "the residual or a Newton correction is not finite"
+            break
+        if iteration > 1:
+            observed = max(observed, size / previous)
+            rate = max(floor, size / previous)
+        if rate < 1.0 and rate / (1.0 - rate) * size <= 1.0:
+            failure = None
+            break
+        if iteration > 1 and (
+            rate >= DIVERGING or rate ** (MAX_ITERATIONS - iteration + 1) / (1.0 - rate) * size > 1.0
+        ):
+            break
+    work = Counters(residuals=iteration, newton_iterations=iteration)
+    return Correction(y, problem, replace(linearisation, rate=observed), work, failure)
+
+
+def _account_for_d0(old: float, new: float, order: int) -> tuple[float, float]:
+    """Return the factor of the corrections and the contraction rate that a change of d0 leads to.
+
+    With r = (new / old)^order the kept matrix applied to the present one has its spectrum between 1
+    (constraints, stiffness) and r (inertia). Corrections multiplied by 2 / (1 + r) contract both ends equally,
+    by |r - 1| / (r + 1); IDA does this for order = 1 (Hindmarsh et al. 2005, section 2.2).
+    """
+    r = (new / old) ** order
+    return 2.0 / (1.0 + r), abs(r - 1.0) / (r + 1.0)

@@ -1,0 +1,2 @@
+"""From a result to a folder of files."""
+from catenaria.report.figures import write_figures
