@@ -69,6 +69,17 @@ def broken_links(root: Path) -> list[str]:
     return broken
 
 
+def unknown_files(root: Path) -> list[str]:
+    """Every Python file that a page names by its path is there."""
+    places = (root, root / "src" / "catenaria")
+    return [
+        f"{page.relative_to(root)}: {name}"
+        for page in pages(root)
+        for name in re.findall(r"`((?:\w+/)+\w+\.py)`", page.read_text(encoding="utf-8"))
+        if not any((place / name).exists() for place in places)
+    ]
+
+
 def unlinked_theory(root: Path) -> list[str]:
     """Every theory page is linked from the index."""
     index = root / "docs" / "index.md"
@@ -209,6 +220,7 @@ def wrong_versions(root: Path) -> list[str]:
 
 RULES: tuple[Rule, ...] = (
     broken_links,
+    unknown_files,
     unlinked_theory,
     long_files,
     long_functions,
@@ -242,7 +254,7 @@ GOOD_HOUSE = {
     "layers = ['cli', 'line | mechanics', 'errors']\n",
     "CITATION.cff": "version: 1.2.3\n",
     "CHANGELOG.md": "## [1.2.3] - unreleased\n",
-    "README.md": "[docs](docs/index.md#theory) [web](https://example.org/x)\n",
+    "README.md": "[docs](docs/index.md#theory) [web](https://example.org/x) `mechanics/elements/rope.py`\n",
     "docs/index.md": "# Index\n\n## Theory\n\n[rope](theory/rope.md)\n",
     "docs/theory/rope.md": "# Rope\n\n" + "".join(f"## {section}\n\n" for section in SECTIONS),
     "src/catenaria/__init__.py": '"""Package."""\n\n__version__ = "1.2.3"\n',
@@ -260,6 +272,7 @@ FAULTS: list[tuple[Rule, str, str]] = [
     (broken_links, "README.md", "[docs](docs/missing.md)\n"),
     (broken_links, "README.md", "[docs](docs/index.md#practice)\n"),
     (broken_links, "docs/index.md", "# Theory\n\n[rope](theory/rope.md) ![](picture.png)\n"),
+    (unknown_files, "README.md", "See `mechanics/elements/chain.py`.\n"),
     (unlinked_theory, "docs/theory/chain.md", "# Chain\n"),
     (long_files, "src/catenaria/errors.py", '"""Errors."""\n' + "x = 1\n" * MAX_FILE_LINES),
     (long_functions, "src/catenaria/errors.py", f'"""Errors."""\n\n\ndef f():\n    """Say."""\n{LONG_BODY}'),

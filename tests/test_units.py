@@ -150,7 +150,7 @@ def test_a_bare_number_is_si(value: Any) -> None:
     ],
 )
 def test_anything_else_is_refused_and_the_message_shows_what_is_allowed(value: object) -> None:
-    with pytest.raises(ValueError, match='^a force, for example "15 kN"'):
+    with pytest.raises(ValueError, match=r'^a force, for example "15 kN"'):
         to_si(value, FORCE)
 
 

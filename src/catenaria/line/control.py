@@ -47,7 +47,9 @@ class ContactTensionControl(TensionControl):
     """Velocity law of the contact wire's ends, with the values of section 5.1 of Yang et al. 2017."""
 
     velocity: PositiveVelocity = Field(default=0.2e-3, description="v_s: largest speed of a wire end.")
-    dead_band: PositiveForce = Field(default=5.0, description="T0: no motion while the tension is off by less.")
+    dead_band: PositiveForce = Field(
+        default=5.0, description="T0: no motion while the tension is off by less."
+    )
     saturation: PositiveForce = Field(default=100.0, description="T1: full speed while it is off by more.")
 
 
@@ -55,7 +57,9 @@ class MessengerTensionControl(TensionControl):
     """Velocity law of the messenger wire's ends, with the values of section 5.1 of Yang et al. 2017."""
 
     velocity: PositiveVelocity = Field(default=0.4e-3, description="v_s: largest speed of a wire end.")
-    dead_band: PositiveForce = Field(default=20.0, description="T0: no motion while the tension is off by less.")
+    dead_band: PositiveForce = Field(
+        default=20.0, description="T0: no motion while the tension is off by less."
+    )
     saturation: PositiveForce = Field(default=500.0, description="T1: full speed while it is off by more.")
 
 
@@ -79,12 +83,12 @@ class HeightControl(LineModel):
 class DropperForceControl(LineModel):
     """Velocity law of a dropper's bottom that balances its two halves, eq. (23)."""
 
-    velocity: PositiveVelocity = Field(default=20e-3, description="v_s: largest speed of a dropper's bottom.")
+    velocity: PositiveVelocity = Field(default=1.0, description="v_s: largest speed of a dropper's bottom.")
     dead_band: PositiveForce = Field(
         default=0.02, description="No motion while the force is off by less than this."
     )
     saturation: PositiveForce = Field(
-        default=2.0, description="Full speed while the force is off by more than this."
+        default=20.0, description="Full speed while the force is off by more than this."
     )
 
     @model_validator(mode="after")

@@ -44,7 +44,7 @@ class Line(LineModel):
     other_wires: tuple[OtherWire, ...] = Field(
         default=(), description="Stitch wires, auxiliary messengers, second wires. Not solved yet."
     )
-    solver: Solver = Field(default=Solver(), description="How the line is meshed and solved.")
+    solver: Solver = Field(default=Solver(), description="Mesh, and options of the methods.")
 
     _source: Source = PrivateAttr(default_factory=Source)
 

@@ -49,11 +49,9 @@ def read_tree(path: FilePath) -> tuple[object, Source]:
     return tree, source
 
 
-def refuse_file(
-    file: str, found: str, allowed: str, mark: Mark = (0, 0), field: str = "the file"
-) -> NoReturn:
+def _refuse(file: str, found: str, allowed: str, mark: Mark = (0, 0), field: str = "the file") -> NoReturn:
     """Raise one fault that makes the file as a whole useless."""
-    raise LineFileError((Fault(file, *mark, field, found, allowed),))
+    raise LineFileError((Fault(file, *mark, format_path(()), found, allowed),))
 
 
 def _read_text(path: FilePath) -> str:
@@ -61,28 +59,28 @@ def _read_text(path: FilePath) -> str:
     try:
         data = path.read_bytes()
     except FileNotFoundError:
-        refuse_file(file, "no such file", "the path of a YAML or JSON file")
+        _refuse(file, "no such file", "the path of a YAML or JSON file")
     except IsADirectoryError:
-        refuse_file(file, "a directory", "the path of a YAML or JSON file")
+        _refuse(file, "a directory", "the path of a YAML or JSON file")
     except OSError as error:
-        refuse_file(file, f"a file that cannot be read ({error.strerror})", "a readable file")
+        _refuse(file, f"a file that cannot be read ({error.strerror})", "a readable file")
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         before = data[: error.start]
         mark = _place_of_end(before.decode("utf-8-sig", errors="replace"))
-        refuse_file(file, f"byte 0x{data[error.start]:02x}, which is not UTF-8", "text in UTF-8", mark)
+        _refuse(file, f"byte 0x{data[error.start]:02x}, which is not UTF-8", "text in UTF-8", mark)
 
 
 def _parse_json(file: str, text: str) -> object:
     try:
         return json.loads(text, parse_constant=_refuse_constant)
     except json.JSONDecodeError as error:
-        refuse_file(file, f"a JSON error ({error.msg})", "valid JSON", (error.lineno, error.colno))
+        _refuse(file, f"a JSON error ({error.msg})", "valid JSON", (error.lineno, error.colno))
     except RecursionError:
-        refuse_file(file, "brackets nested too deeply", "a mapping with the fields of a line")
+        _refuse(file, "brackets nested too deeply", "a mapping with the fields of a line")
     except ValueError as error:
-        refuse_file(file, f"a number that JSON does not have ({error})", "finite JSON numbers")
+        _refuse(file, f"a number that JSON does not have ({error})", "finite JSON numbers")
 
 
 def _refuse_constant(name: str) -> NoReturn:
@@ -115,7 +113,7 @@ class _Builder:
             root = self._compose(text)
             tree = self._data(root, ())
         except RecursionError:
-            refuse_file(self.file, "brackets nested too deeply", "a mapping with the fields of a line")
+            _refuse(self.file, "brackets nested too deeply", "a mapping with the fields of a line")
         if self.faults:
             raise LineFileError(tuple(self.faults))
         return tree, Source(self.file, self.values, self.keys)
@@ -127,13 +125,13 @@ class _Builder:
         except MarkedYAMLError as error:
             mark: Any = error.problem_mark or error.context_mark
             what = ": ".join(str(part) for part in (error.context, error.problem) if part)
-            refuse_file(self.file, f"a YAML error ({what})", "valid YAML", (mark.line + 1, mark.column + 1))
+            _refuse(self.file, f"a YAML error ({what})", "valid YAML", (mark.line + 1, mark.column + 1))
         except ReaderError as unreadable:
             error: Any = unreadable
             place = _place_of_end(text[: error.position])
-            refuse_file(self.file, f"the character {text[error.position]!r}", "printable text", place)
+            _refuse(self.file, f"the character {text[error.position]!r}", "printable text", place)
         if root is None:
-            refuse_file(self.file, "nothing", "a mapping with the fields of a line")
+            _refuse(self.file, "nothing", "a mapping with the fields of a line")
         return root
 
     def _data(self, node: Node, path: Path) -> object:

@@ -79,10 +79,10 @@ class Support(LineModel):
     Examples
     --------
     >>> support = Support(
-    ...     contact_wire=ContactSupport(height=5.3), messenger_wire=MessengerSupport(encumbrance=1.4)
+    ...     contact_wire=ContactSupport(height=5.5), messenger_wire=MessengerSupport(encumbrance=1.5)
     ... )
     >>> support.messenger_height
-    6.7
+    7.0
     """
 
     name: str = Field(

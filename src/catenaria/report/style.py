@@ -1,8 +1,8 @@
 """One look for all figures, set on each figure itself and never on matplotlib's global parameters.
 
 Colours are those of Okabe and Ito (2008), which remain distinct with every kind of colour blindness. Margins
-are fixed, because matplotlib's automatic layouts draw every figure twice. All calls of matplotlib that take style
-arguments are in this file, because matplotlib does not declare their types.
+are fixed, because matplotlib's automatic layouts draw every figure twice. All calls of matplotlib that take
+style arguments are in this file, because matplotlib does not declare their types.
 """
 
 # pyright: reportUnknownMemberType=false

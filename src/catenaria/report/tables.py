@@ -58,11 +58,6 @@ def table(result: FormResult, name: TableName) -> DataFrame:
     -------
     pandas.DataFrame
         Column names carry the unit as suffix: ``length_m``, ``tension_N``.
-
-    Examples
-    --------
-    >>> from catenaria.results import load_result
-    >>> table(load_result("results/yang2017_three_span"), "droppers")["length_m"]  # doctest: +SKIP
     """
     import pandas  # pyright: ignore[reportMissingTypeStubs]  # pandas-stubs are optional
 

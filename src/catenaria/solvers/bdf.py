@@ -1,7 +1,8 @@
 """Variable-step, variable-coefficient BDF for F(t, y, y', y'') = 0 up to index 3, eqs. (24)-(27).
 
-The state of an integration is a value; `attempt` maps it to the next one and `integrate` drives it. Velocities
-are eliminated: y' is the formula applied to y and y'' the same formula applied to y', so a step solves for y only.
+The state of an integration is a value; `attempt` maps it to the next one and `integrate` drives it.
+Velocities are eliminated: y' is the formula applied to y, y'' the same formula applied to y', and a step
+solves for y only.
 """
 
 from __future__ import annotations

@@ -82,23 +82,24 @@ def begin(problem: DaeProblem, start: Start, t_end: float, options: Options) -> 
     _check(problem, t, y, yd, t_end, options)
     recent = slice(None, -options.max_order - 2, -1)
     history = History(tuple(t[recent].tolist()), y[recent], yd[recent])
-    points = len(history.t)
+    points = min(t.size, options.max_order + 1)
     h = _first_step(problem, history, t_end, options)
     order = min(options.max_order, points if options.constant_step else max(points - 1, 1))
     if points == 1:
-        history = History((history.t[0], history.t[0] - h), np.vstack((y, y - h * yd)), np.vstack((yd, yd)))
+        history = History((float(t[0]), float(t[0]) - h), np.vstack((y, y - h * yd)), np.vstack((yd, yd)))
     return State(history, points, problem, h, order)
 
 
 def _first_step(problem: DaeProblem, history: History, t_end: float, options: Options) -> float:
     """Return the given first step, that of the table, or one in which rates move half an allowed error."""
+    t0 = history.t[0]
     if options.constant_step is not None:
         return options.constant_step
     if options.initial_step is not None:
         return min(options.initial_step, options.max_step)
     if len(history.t) > 1:
-        return min(history.t[0] - history.t[1], options.max_step)
-    span = t_end - history.t[0]
+        return min(t0 - history.t[1], options.max_step)
+    span = t_end - t0
     rate = float(np.abs(history.yd[0] / problem.error_scale).max())
     return min(FIRST_STEP * span, 0.5 / max(rate, 1.0 / span), options.max_step)
 

@@ -154,8 +154,8 @@ def _account_for_d0(old: float, new: float, order: int) -> tuple[float, float]:
     """Return the factor of the corrections and the contraction rate that a change of d0 leads to.
 
     With r = (new / old)^order the kept matrix applied to the present one has its spectrum between 1
-    (constraints, stiffness) and r (inertia). Corrections multiplied by 2 / (1 + r) contract both ends equally,
-    by |r - 1| / (r + 1); IDA does this for order = 1 (Hindmarsh et al. 2005, section 2.2).
+    (constraints, stiffness) and r (inertia). Corrections multiplied by 2 / (1 + r) contract both ends by the
+    same |r - 1| / (r + 1); IDA does this for order = 1 (Hindmarsh et al. 2005, section 2.2).
     """
     r = (new / old) ** order
     return 2.0 / (1.0 + r), abs(r - 1.0) / (r + 1.0)

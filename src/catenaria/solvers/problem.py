@@ -38,13 +38,13 @@ class SparseMatrix(Protocol):
 
 
 class DaeProblem(Protocol):
-    """Implicit system F(t, y, y', y'') = 0, eq. (24); row i of F belongs to unknown i; arrays have shape (n,).
+    """Implicit system F(t, y, y', y'') = 0, eq. (24); row i belongs to unknown i, all arrays have shape (n,).
 
     Notes
     -----
-    Multipliers and sliding coordinates are algebraic (order 0), also where their rates could be computed. Slopes,
-    sliding coordinates and multipliers do not belong in the error test of an index-3 system. The rounding error of
-    a multiplier grows as steps shrink: its `newton_scale` has to stay well above.
+    Multipliers and sliding coordinates are algebraic (order 0), also where their rates could be computed.
+    They do not belong in the error test of an index-3 system. The rounding error of a multiplier grows as
+    steps shrink: its `newton_scale` has to stay well above.
     """
 
     @property
@@ -54,7 +54,7 @@ class DaeProblem(Protocol):
 
     @property
     def order_of(self) -> OrderArray:
-        """Highest time derivative of each unknown: 2 for positions, 1 for control parameters, 0 for algebraic ones."""
+        """Highest time derivative: 2 for positions, 1 for control parameters, 0 for algebraic unknowns."""
         ...
 
     @property

@@ -1,0 +1,51 @@
+"""The `catenaria` command."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from catenaria import __version__
+from catenaria.cli.describe import check, schema
+from catenaria.cli.solve import solve
+
+app = typer.Typer(
+    name="catenaria",
+    no_args_is_help=True,
+    pretty_exceptions_enable=False,
+    add_completion=False,
+    rich_markup_mode=None,
+)
+app.command()(solve)
+app.command()(check)
+app.command()(schema)
+
+
+def _show_version(wanted: bool) -> None:
+    if wanted:
+        typer.echo(f"catenaria {__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def describe(
+    version: Annotated[
+        bool,
+        typer.Option("--version", callback=_show_version, is_eager=True, help="Show the version and exit."),
+    ] = False,
+) -> None:
+    """Find the form of railway overhead contact lines.
+
+    Given wires, tensions, supports, dropper positions and the wanted contact-wire heights, catenaria computes
+    the equilibrium, the lengths to which droppers and wires are cut, and the forces in all of them.
+
+    Example:
+
+      catenaria solve examples/yang2017_three_span.yaml --method dynamic
+    """
+
+
+def main() -> None:
+    """Run the command line; ends with `SystemExit`, whose code is 0, 1 (not converged) or 2 (bad input)."""
+    app(prog_name="catenaria")

@@ -1,0 +1,91 @@
+"""What `catenaria solve` says at the end: dropper schedule, wires, errors, work done."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from rich import box
+from rich.console import Console
+from rich.table import Table
+
+if TYPE_CHECKING:
+    from catenaria.results import FormResult
+
+_MOST_ROWS = 24
+
+
+def show_result(result: FormResult, console: Console) -> None:
+    """Print the result in short: droppers, wires, largest errors and counters."""
+    console.print(_dropper_table(result))
+    hidden = len(result.droppers.x) - _MOST_ROWS
+    if hidden > 0:
+        console.print(f"  ... and {hidden} more in droppers.csv\n")
+    console.print(_wire_table(result))
+    for line in (*_error_lines(result), *_counter_lines(result)):
+        console.print(line, soft_wrap=True)
+
+
+def _dropper_table(result: FormResult) -> Table:
+    droppers = result.droppers
+    table = _table(
+        "Droppers",
+        "span",
+        "dropper",
+        "x [m]",
+        "length [m]",
+        "cut length [m]",
+        "force [N]",
+        "height error [mm]",
+    )
+    for i in range(min(_MOST_ROWS, len(droppers.x))):
+        table.add_row(
+            str(droppers.span[i]),
+            str(droppers.number[i]),
+            f"{droppers.x[i]:.2f}",
+            f"{droppers.length[i]:.4f}",
+            f"{droppers.cut_length[i]:.4f}",
+            f"{droppers.force_bottom[i]:.2f}",
+            f"{1e3 * droppers.height_error[i]:.3f}",
+        )
+    return table
+
+
+def _wire_table(result: FormResult) -> Table:
+    table = _table("Wires", "", "tension [N]", "wanted [N]", "cut to [m]", "end travel [mm]", "sag [mm]")
+    for wire in result.wires:
+        table.add_row(
+            wire.name,
+            f"{wire.tension:.1f}",
+            f"{wire.target_tension:.1f}",
+            f"{wire.unstressed_length:.4f}",
+            f"{1e3 * wire.travel:.1f}",
+            f"{1e3 * wire.sag:.2f}",
+        )
+    return table
+
+
+def _table(title: str, *columns: str) -> Table:
+    table = Table(title=title, title_justify="left", title_style="bold", box=box.SIMPLE_HEAD, pad_edge=False)
+    for column in columns:
+        table.add_column(column, justify="right" if column else "left")
+    return table
+
+
+def _error_lines(result: FormResult) -> list[str]:
+    height = 1e3 * np.max(np.abs(result.droppers.height_error))
+    force = np.max(np.abs(result.droppers.force_error))
+    tension = max(abs(wire.tension_error) for wire in result.wires)
+    return [
+        f"Stopped: {result.stop_reason}.",
+        f"Largest errors: height {height:.4f} mm, dropper force {force:.3f} N, tension {tension:.2f} N.",
+    ]
+
+
+def _counter_lines(result: FormResult) -> list[str]:
+    return [
+        f"{counter.step}: {counter.simulated_time:.0f} s simulated in {counter.wall_time:.2f} s with "
+        f"{counter.steps} steps, {counter.rejected} rejected, {counter.factorisations} factorisations, "
+        f"{counter.unknowns} unknowns."
+        for counter in result.counters
+    ]

@@ -1,0 +1,165 @@
+"""Newton-Raphson iteration for square sparse systems, globalised by Deuflhard's natural monotonicity."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from catenaria.errors import NotConvergedError
+from catenaria.solvers.linear import ColumnOrdering, Factorisation, factorise
+from catenaria.solvers.problem import AlgebraicProblem, FloatArray
+
+
+@dataclass(frozen=True)
+class NewtonOptions:
+    """Limits of a Newton iteration.
+
+    Parameters
+    ----------
+    max_iterations : int
+        Limit of iterations, each with a new Jacobian.
+    min_damping : float
+        Smallest fraction of a correction that is worth trying.
+    permc_spec : str
+        Column ordering of the sparse LU.
+    """
+
+    max_iterations: int = 50
+    min_damping: float = 1e-4
+    permc_spec: ColumnOrdering = "COLAMD"
+
+
+@dataclass(frozen=True)
+class Root:
+    """Where a Newton iteration arrived.
+
+    Attributes
+    ----------
+    y : FloatArray, shape (n,)
+        Last iterate.
+    converged : bool
+        Whether it is a root; only the partial result of a `NotConvergedError` is none.
+    corrections : FloatArray, shape (iterations,)
+        Scaled maximum norm of the full corrections, convergence at 1.
+    damping : FloatArray, shape (iterations,)
+        Fraction of each correction that was applied.
+    problem : AlgebraicProblem
+        With the discrete state that fits y.
+    """
+
+    y: FloatArray
+    converged: bool
+    corrections: FloatArray
+    damping: FloatArray
+    problem: AlgebraicProblem
+
+
+@dataclass(frozen=True)
+class _Iterate:
+    y: FloatArray
+    problem: AlgebraicProblem
+    corrections: tuple[float, ...] = ()
+    damping: tuple[float, ...] = ()
+    converged: bool = False
+
+    def root(self) -> Root:
+        return Root(self.y, self.converged, np.array(self.corrections), np.array(self.damping), self.problem)
+
+
+def solve_newton(problem: AlgebraicProblem, y: FloatArray, options: NewtonOptions | None = None) -> Root:
+    """Find a root of f from a starting guess.
+
+    Parameters
+    ----------
+    problem : AlgebraicProblem
+        The equations; after each iteration they may be exchanged by `reselect`.
+    y : FloatArray, shape (n,)
+        Starting guess; it is not changed.
+    options : NewtonOptions, optional
+        Limits.
+
+    Returns
+    -------
+    Root
+
+    Raises
+    ------
+    NotConvergedError
+        If the Jacobian is singular, something is not finite, no damping helps or the iterations run out;
+        `partial` is the `Root` so far.
+
+    Notes
+    -----
+    With the correction d = -J^{-1} f(y) a damped iterate y + a d is accepted if the simplified correction
+    dbar = -J^{-1} f(y + a d), which costs a residual and a triangular solve, is smaller than d by the factor
+    1 - a/4. This test does not depend on how the rows of f are scaled. The next a is Deuflhard's estimate
+    a^2 |d| / (2 |dbar - (1 - a) d|).
+
+    References
+    ----------
+    Deuflhard 2004, Newton Methods for Nonlinear Problems, section 3.3.3, algorithm NLEQ-ERR.
+    """
+    options = options or NewtonOptions()
+    iterate = _Iterate(np.array(y, dtype=np.float64), problem)
+    while not iterate.converged:
+        if len(iterate.corrections) >= options.max_iterations:
+            raise _failure(iterate, f"Newton's method has made {options.max_iterations} iterations")
+        iterate = _iterate(iterate, options)
+        selected = iterate.problem.reselect(iterate.y)
+        if selected is not None:
+            iterate = replace(iterate, problem=selected, converged=False)
+    return iterate.root()
+
+
+def _iterate(iterate: _Iterate, options: NewtonOptions) -> _Iterate:
+    """Return the next accepted iterate."""
+    problem, y = iterate.problem, iterate.y
+    try:
+        factorisation = factorise(problem.jacobian(y), permc_spec=options.permc_spec)
+    except np.linalg.LinAlgError as error:
+        raise _failure(iterate, f"In Newton's method {error}") from error
+    correction = _correction(problem, factorisation, y)
+    size = _size(problem, correction)
+    if not np.isfinite(size):
+        raise _failure(iterate, "The residual or a Newton correction is not finite")
+    if size <= 1.0:
+        return _next(iterate, y + correction, size, 1.0, True)
+    damping = 1.0
+    while damping >= options.min_damping:
+        trial = y + damping * correction
+        simplified = _correction(problem, factorisation, trial)
+        reduced = _size(problem, simplified)
+        if reduced <= 1.0 and damping == 1.0:
+            return _next(iterate, trial + simplified, size, damping, True)
+        if reduced <= (1.0 - 0.25 * damping) * size:
+            return _next(iterate, trial, size, damping, False)
+        estimate = _estimate(problem, correction, simplified, damping)
+        damping *= min(max(estimate / damping, 0.1), 0.5)
+    raise _failure(iterate, "Newton's method finds no damping that brings it nearer to a root")
+
+
+def _correction(problem: AlgebraicProblem, factorisation: Factorisation, y: FloatArray) -> FloatArray:
+    return -factorisation.solve(problem.residual(y))
+
+
+def _size(problem: AlgebraicProblem, correction: FloatArray) -> float:
+    """Return the scaled maximum norm, infinite if an entry is not a number."""
+    size = float(np.abs(correction / problem.newton_scale).max())
+    return size if np.isfinite(size) else np.inf
+
+
+def _estimate(
+    problem: AlgebraicProblem, correction: FloatArray, simplified: FloatArray, damping: float
+) -> float:
+    """Return Deuflhard's estimate of the best damping, zero if the trial was not finite."""
+    deviation = _size(problem, simplified - (1.0 - damping) * correction)
+    return 0.5 * damping**2 * _size(problem, correction) / deviation
+
+
+def _next(iterate: _Iterate, y: FloatArray, size: float, damping: float, converged: bool) -> _Iterate:
+    return _Iterate(y, iterate.problem, (*iterate.corrections, size), (*iterate.damping, damping), converged)
+
+
+def _failure(iterate: _Iterate, reason: str) -> NotConvergedError:
+    return NotConvergedError(reason, "a starting guess nearer to the solution", iterate.root())
