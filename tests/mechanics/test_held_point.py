@@ -8,8 +8,12 @@ import numpy as np
 import pytest
 
 from catenaria.mechanics.chain import Chain, Section
+from catenaria.mechanics.controls.control import Controls
+from catenaria.mechanics.controls.measures import Height
+from catenaria.mechanics.controls.velocity_law import VelocityLaw
 from catenaria.mechanics.elements.cable import CableElements
 from catenaria.mechanics.joints.held_point import HeldPoints
+from catenaria.mechanics.loads.gravity import Ramp
 from catenaria.mechanics.state import State
 from catenaria.mechanics.system import System
 from catenaria.mechanics.unknowns import Kind, UnknownsBuilder
@@ -35,7 +39,10 @@ def test_residual_by_hand() -> None:
 
 
 def driven(lay_wire: Lay, turn: np.ndarray, signs: tuple[float, float]) -> tuple[System, Chain, np.ndarray, int]:
-    """Return an unstrained wire whose ends move by one parameter along its axis, with the given signs."""
+    """Return an unstrained wire whose ends move by one parameter along its axis, with the given signs.
+
+    The control is there because every parameter needs an equation; the tests keep the parameter at PULL.
+    """
     builder = UnknownsBuilder()
     wire = lay_wire(builder, [0, 0, 0], LENGTH * turn[:, 0], np.linspace(0.0, LENGTH, 7), SECTION)
     la = builder.add(Kind.MULTIPLIER, np.zeros((2, 3)))
@@ -44,7 +51,8 @@ def driven(lay_wire: Lay, turn: np.ndarray, signs: tuple[float, float]) -> tuple
     nodes = wire.nodes[[0, -1], :3]
     directions = np.outer(signs, turn[:, 0])
     held = HeldPoints(nodes, la, table.start[nodes], directions, np.repeat(p, 2))
-    return System(table, (CableElements.of([wire]), held)), wire, la, int(p[0])
+    control = Controls(p, Height(nodes[:1, 2]), np.zeros(1), VelocityLaw(1.0, 0.0, 1.0), Ramp(0.0), Ramp(0.0))
+    return System(table, (CableElements.of([wire]), held, control)), wire, la, int(p[0])
 
 
 def check_tightened(z: np.ndarray, wire: Chain, la: np.ndarray, turn: np.ndarray) -> None:

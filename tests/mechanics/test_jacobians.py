@@ -136,6 +136,7 @@ def aimed(part: Controls, state: State) -> Controls:
     """Return the same controls with targets and bands that fit the state and the size of the gradients."""
     width = max(1.0, float(np.abs(part.measure.gradient(state.t, state.z)).max()))
     target = part.measure.value(state.t, state.z) - width * np.array([1.1, -1.6])
+    target = target / part.target_ramp(state.t)
     return replace(part, target=target, law=VelocityLaw(0.8, 0.5 * width, 2.5 * width))
 
 

@@ -28,15 +28,14 @@ def test_both_kinds_of_weights_are_exact_for_polynomials_of_their_degree(steps, 
 
 
 @given(steps=STEPS, t=st.floats(-3.0, 3.0))
-def test_negative_control_one_degree_more_is_not_exact(steps, t):
+def test_negative_control_one_degree_more_leaves_the_known_remainder(steps, t):
+    """(s - t)^(k+1) has no slope at t; the formula returns minus the product of the distances of the nodes."""
     past = grid(steps, t)
-    power = len(past) + 1
-    d0, d = derivative_weights(t, past)
-    missing = -np.prod(np.array(past) - t)  # derivative at t of the node polynomial's remainder
-    shifted = (np.array(past) - t) ** power
-    assert d @ shifted == pytest.approx((-1) ** power * np.prod(t - np.array(past)), abs=1e-8, rel=1e-8)
-    assert abs(missing) > 1e-6
-    assert d0 > 0.0
+    distance = t - np.array(past)
+    _, d = derivative_weights(t, past)
+    remainder = d @ (-distance) ** (len(past) + 1)
+    assert remainder == pytest.approx(-np.prod(distance), rel=1e-6)
+    assert abs(remainder) > 5e-6
 
 
 @pytest.mark.parametrize(

@@ -32,7 +32,7 @@ def slopes(problem, order, h):
 
 
 @pytest.mark.parametrize(
-    ("order", "h", "cap"), [(1, 0.005, 2e-2), (2, 0.01, 1e-3), (3, 0.02, 1e-4), (4, 0.02, 4e-6), (5, 0.04, 4e-6)]
+    ("order", "h", "cap"), [(1, 0.005, 4e-2), (2, 0.01, 1e-3), (3, 0.02, 1e-4), (4, 0.02, 4e-6), (5, 0.04, 4e-6)]
 )
 def test_q_qd_multiplier_and_parameter_converge_with_the_order_of_the_formula(forced, order, h, cap):
     observed, errors = slopes(forced(), order, h)

@@ -1,0 +1,1 @@
+"""Closed forms: starting guesses, and what numerical results are compared with."""

@@ -1,0 +1,1 @@
+"""Methods that find the form of a line."""

@@ -1,0 +1,1 @@
+"""Systems of cables, joints, loads and controls: residuals and exact Jacobians."""

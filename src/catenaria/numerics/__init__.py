@@ -1,0 +1,1 @@
+"""Small numerical tools without mechanics: quadrature, shape functions, smooth steps."""

@@ -47,7 +47,7 @@ def velocity_figure(result: FormResult) -> Figure:
         pulls = _pulls(history)
         velocity = 1e3 * history.velocity
         style.line(rows[0][i], history.time, velocity[:, pulls].mean(axis=1), style.BLUE, "outwards")
-        style.lines(rows[1][i], history.time, velocity[:, ~pulls], style.GREEN, "each dropper")
+        style.lines(rows[1][i], history.time, velocity[:, ~pulls], style.GREEN, "dropper")
         for axes, moved in ((rows[0][i], "wire ends"), (rows[1][i], "dropper ends")):
             style.describe(axes, f"{title}, {moved}", _TIME, "velocity [mm/s]")
             style.legend(axes, 1)
@@ -110,7 +110,7 @@ def _pulls(history: History) -> NDArray[np.bool_]:
 def _joint_lines(axes: Axes, history: History) -> None:
     tension = 1e-3 * history.joint_tension
     if len(history.joint_name) > _MOST_JOINTS:
-        style.lines(axes, history.time, tension, style.SKY, "N at each support")
+        style.lines(axes, history.time, tension, style.SKY, "support")
         return
     for i, name in enumerate(history.joint_name):
         dashes = _DASHES[i % len(_DASHES)]  # symmetric lines coincide
@@ -121,6 +121,6 @@ def _error_lines(axes: Axes, history: History, error: NDArray[np.float64], band:
     size = np.maximum(error, _ERROR_FLOOR * band)
     style.logarithmic(axes)
     if size.shape[1] > 1:
-        style.lines(axes, history.time, size, style.SKY, "each dropper")
+        style.lines(axes, history.time, size, style.SKY, "dropper")
     style.line(axes, history.time, size.max(axis=1), style.BLUE, "largest" if size.shape[1] > 1 else "")
     style.level(axes, band, f"dead band {band:g} {unit}")

@@ -101,11 +101,11 @@ def line(
     axes.plot(x, y, color=colour, label=label or "_", linewidth=width, linestyle=style)
 
 
-def lines(axes: Axes, x: FloatArray, y: FloatArray, colour: str, label: str) -> None:
-    """Draw the columns of `y` as thin lines under one label; if there are very many, only some."""
+def lines(axes: Axes, x: FloatArray, y: FloatArray, colour: str, noun: str) -> None:
+    """Draw the columns of `y` as thin lines, one for each `noun`; if there are very many, only some."""
     count = y.shape[1]
     stride = -(-count // _MOST_LINES)
-    text = label if stride == 1 else f"{label} (one in {stride} shown)"
+    text = f"each {noun}" if stride == 1 else f"one in {stride} {noun}s"
     for i in range(0, count, stride):
         line(axes, x, y[:, i], colour, "" if i else text, width=0.6)
 

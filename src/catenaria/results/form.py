@@ -68,9 +68,9 @@ class Profile:
     x, y, z : FloatArray
         Position [m].
     tension : FloatArray
-        True axial force EA eps |r'| [N].
+        True axial force EA eps |r'|, interpolated between its means over elements [N].
     strain_tension : FloatArray
-        N = EA eps of eq. (11) [N].
+        N = EA eps of eq. (11) at the point, which overshoots where a wire bends sharply [N].
     horizontal : FloatArray
         Component of the true axial force along the track [N].
     moment : FloatArray
@@ -106,7 +106,7 @@ class WireForm:
     reaction_start, reaction_end : float
         Size of the reaction at the two wire ends [N].
     tension_min, tension_max, tension_mean : float
-        Of the true axial force between the first and the last support [N].
+        Of the element means of the true axial force between the first and the last support [N].
     travel : float
         How far each end was pulled outwards [m].
     sag : float

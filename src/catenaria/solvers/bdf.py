@@ -116,7 +116,7 @@ def _next_time(t: float, h: float, t_end: float, options: Options) -> tuple[floa
     A sliver would spoil the multipliers: their error grows with the ratio of neighbouring steps.
     """
     remaining = t_end - t
-    if h >= remaining * (1.0 - 1e-9):
+    if remaining <= h * (1.0 + 1e-6):
         return t_end, remaining
     if options.constant_step is None and 2.0 * h > remaining:
         h = 0.5 * remaining

@@ -2,6 +2,6 @@
 
 from catenaria.formfinding.progress import Progress
 from catenaria.workflow.solve import METHODS, solve
-#from catenaria.workflow.write import write
+from catenaria.workflow.write import write
 
 __all__ = ["METHODS", "Progress", "solve", "write"]

@@ -1,2 +1,42 @@
 """From a result to a folder of files."""
-from catenaria.report.figures import write_figures
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+from catenaria.report.tables import write_tables
+from catenaria.results import FormResult, replace_folder, save_result
+
+
+def write(result: FormResult, folder: str | os.PathLike[str], figures: bool = True) -> tuple[Path, ...]:
+    """Write a result with its tables and figures into a folder, all of it or nothing.
+
+    Parameters
+    ----------
+    result : FormResult
+        What was found.
+    folder : path
+        Where to; an earlier result in it is replaced, anything else is not touched.
+    figures : bool
+        Whether to draw figures.
+
+    Returns
+    -------
+    tuple of Path
+        The files.
+
+    Raises
+    ------
+    InconsistentInputError
+        If the folder holds something that is not an earlier result.
+    """
+    with replace_folder(folder) as new:
+        save_result(result, new)
+        write_tables(result, new)
+        if figures:
+            from catenaria.report.figures import write_figures  # slow to import
+
+            write_figures(result, new / "figures")
+        names = sorted(path.relative_to(new) for path in new.rglob("*") if path.is_file())
+    return tuple(Path(folder) / name for name in names)

@@ -1,0 +1,1 @@
+"""Controls: a parameter, a measure, a target and a velocity law."""

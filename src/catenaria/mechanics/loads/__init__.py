@@ -1,0 +1,1 @@
+"""Loads, inertia and damping."""
