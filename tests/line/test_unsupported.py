@@ -28,6 +28,8 @@ UNSOLVED: list[tuple[str, tuple[str | int, ...], Any]] = [
         {"height": 1.5, "kind": "spring", "stiffness": "50 kN/m"},
     ),
     ("supports[2].stagger", ("supports", 2, "stagger"), "-20 cm"),
+    ("supports[3].contact_wire.height", ("supports", 3, "contact_wire", "height"), "10 mm"),
+    ("supports[2].messenger_wire", ("supports", 2, "messenger_wire", "height"), "1.6 m"),
     ("spans[1].pre_sag", ("spans", 1, "pre_sag"), "55 mm"),
     ("track.curves", ("track",), {"curves": [{"start": 0, "length": 195, "radius": -800}]}),
     ("track.gradients", ("track",), {"gradients": [{"start": 0, "slope": "5 mm/m"}]}),

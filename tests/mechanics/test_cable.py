@@ -115,7 +115,9 @@ def test_stiffness_is_symmetric() -> None:
     """K is the second derivative of an energy; the lower triangle is copied, so forces are differenced too."""
     q, h = bent(), 1e-4
     check_symmetric(one().stiffness(q))
-    differences = np.array([(forces(one(), q + h * e) - forces(one(), q - h * e)) / (2.0 * h) for e in np.eye(12)])
+    differences = np.array(
+        [(forces(one(), q + h * e) - forces(one(), q - h * e)) / (2.0 * h) for e in np.eye(12)]
+    )
     np.testing.assert_allclose(differences, differences.T, atol=1e-6 * np.abs(differences).max())
     with pytest.raises(AssertionError):
         check_symmetric(np.triu(one().stiffness(q)[0]))
@@ -182,7 +184,9 @@ def test_patch_uniform_stretch(points: int, stretch: float, turn: np.ndarray) ->
     N = chain.section.EA * 0.5 * (stretch**2 - 1.0)
     elements = CableElements.of([chain], points)
     check_uniform_stretch(elements, chain, q, N * stretch * turn[:, 0])
-    np.testing.assert_allclose(elements.energies(q), np.outer(0.5 * N**2 / chain.section.EA * chain.L, [1, 0]), atol=1e-10)
+    np.testing.assert_allclose(
+        elements.energies(q), np.outer(0.5 * N**2 / chain.section.EA * chain.L, [1, 0]), atol=1e-10
+    )
     if stretch == 1.3:
         with pytest.raises(AssertionError):
             check_uniform_stretch(elements, chain, q, N * turn[:, 0])

@@ -115,7 +115,9 @@ def green_stretch(T: np.ndarray | float, EA: float) -> np.ndarray:
     return a
 
 
-def green_catenary(section: Section, L: float, span: tuple[float, float], s: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def green_catenary(
+    section: Section, L: float, span: tuple[float, float], s: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
     """Return x, z of a perfectly flexible wire at s, and the force on its start, by quadrature and root finding."""
     w = section.rhoA * G
 
@@ -172,4 +174,6 @@ def test_elastic_catenary_closed_form(lay_wire: Lay, solve_statics: Solve) -> No
     eps = np.hypot(H, V + w * s).max() / EA
     bound = 1.5 * eps**2 * 31.0 + 2e-4
     assert np.abs(np.column_stack((x, height)) - r[:, [0, 2]]).max() < bound
-    assert np.abs(H * s / EA).max() > 10.0 * bound, "the stretch must be seen, or the inextensible form would do"
+    assert np.abs(H * s / EA).max() > 10.0 * bound, (
+        "the stretch must be seen, or the inextensible form would do"
+    )

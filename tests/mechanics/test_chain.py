@@ -29,7 +29,9 @@ def check_evaluation(chain: Chain, s: np.ndarray, element: np.ndarray) -> None:
     points = chain.evaluate(Z, s, element)
     expected = np.array([hermite(at, inside) for at, inside in zip(s, element, strict=True)])
     for k, found in enumerate((points.r, points.r1, points.r2)):
-        np.testing.assert_allclose(found, expected[:, k], rtol=1e-10, atol=1e-9 * np.abs(expected[:, k]).max())
+        np.testing.assert_allclose(
+            found, expected[:, k], rtol=1e-10, atol=1e-9 * np.abs(expected[:, k]).max()
+        )
     np.testing.assert_allclose(np.einsum("nk,nki->ni", points.N, Z[points.dofs]), points.r, rtol=1e-12)
     np.testing.assert_allclose(np.einsum("nk,nki->ni", points.N1, Z[points.dofs]), points.r1, rtol=1e-12)
 

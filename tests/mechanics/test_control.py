@@ -77,7 +77,9 @@ def dropper_loop(lay_wire: Lay, up: bool) -> Loop:
     inner = cable.nodes[:1, :3]
     clamp = GuidedJoints(wire, s, la[3:], wire.locate(table.start[s]), np.array([4.0]), inner)
     if up:
-        control = Controls(p, Height(inner[:, 2]), np.array([5.05]), VelocityLaw(0.02, 1e-3, 0.1), Ramp(5.0), Ramp(0.0))
+        control = Controls(
+            p, Height(inner[:, 2]), np.array([5.05]), VelocityLaw(0.02, 1e-3, 0.1), Ramp(5.0), Ramp(0.0)
+        )
     else:
         measure = DropperForce(la[3:, 2], inner[:, 2], np.array([3.9]), 0.2, np.zeros(1), 9.8, Ramp(5.0))
         control = Controls(p, measure, np.array([40.0]), VelocityLaw(0.02, 0.2, 50.0), Ramp(5.0), Ramp(5.0))
@@ -94,7 +96,9 @@ LOOPS: dict[str, Callable[[Lay], Loop]] = {
 }
 
 
-def at_parameter(loop: Loop, solve_statics: Solve, start: tuple[System, np.ndarray], p: float) -> tuple[System, np.ndarray]:
+def at_parameter(
+    loop: Loop, solve_statics: Solve, start: tuple[System, np.ndarray], p: float
+) -> tuple[System, np.ndarray]:
     """Return the equilibrium with the parameter held at p."""
     system, z = start
     z = z.copy()
@@ -154,7 +158,9 @@ def test_control_reversed_direction_runs_away(name: str, lay_wire: Lay, solve_st
     """With the driven points' directions reversed, the very same check fails."""
     loop = aside(LOOPS[name](lay_wire), solve_statics, 1.0)
     parts = tuple(
-        replace(part, direction=-part.direction, X=part.X + 0.2 * part.direction) if isinstance(part, HeldPoints) else part
+        replace(part, direction=-part.direction, X=part.X + 0.2 * part.direction)
+        if isinstance(part, HeldPoints)
+        else part
         for part in loop.system.contributions
     )
     with pytest.raises(AssertionError, match="dm/dp"):
@@ -172,7 +178,9 @@ def test_residual_by_hand(t: float, ramp: float) -> None:
     """p' - ramp v(e): 1.5 too high saturates, 0.5 too low is halfway; the ramp of gravity brings both in."""
     z, zd = np.array([4.0, 2.0, 0.0, 0.0]), np.array([0.0, 0.0, 0.3, -0.2])
     law = VelocityLaw(0.1, 0.0, 1.0)
-    control = Controls(np.array([2, 3]), Height(np.array([0, 1])), np.array([2.5, 2.5]), law, Ramp(5.0), Ramp(0.0))
+    control = Controls(
+        np.array([2, 3]), Height(np.array([0, 1])), np.array([2.5, 2.5]), law, Ramp(5.0), Ramp(0.0)
+    )
     expected = np.array([0.0, 0.0, 0.3 + ramp * 0.1, -0.2 - ramp * 0.05])
     np.testing.assert_allclose(control.error(t, z), [1.5, -0.5])
     check_residual(control, State(t, z, zd, z), expected)

@@ -109,7 +109,9 @@ def test_normals() -> None:
         normals(np.zeros((1, 3)))
 
 
-def cut_cantilever(lay_wire: Lay, turn: np.ndarray, sections: tuple[Section, Section]) -> tuple[System, Chain, Chain]:
+def cut_cantilever(
+    lay_wire: Lay, turn: np.ndarray, sections: tuple[Section, Section]
+) -> tuple[System, Chain, Chain]:
     """Return a wire along `turn`'s x axis of two chains with unequal elements, joined at 0.7 m."""
     builder = UnknownsBuilder()
     at = 0.7 * turn[:, 0]
@@ -156,7 +158,9 @@ def test_slopes_may_differ_in_length(lay_wire: Lay, solve_statics: Solve, turn: 
     """The strain jumps between a stiff and a soft piece, which a shared node cannot represent."""
     sections = (Section(1e4, 5.0, 1.0), Section(3e3, 5.0, 1.0))
     system, first, second = cut_cantilever(lay_wire, turn, sections)
-    _, z = solve_statics(system, 1.005 * system.unknowns.start, first.nodes[0, :3], tip_load(system, second, turn[:, 0], 100.0))
+    _, z = solve_statics(
+        system, 1.005 * system.unknowns.start, first.nodes[0, :3], tip_load(system, second, turn[:, 0], 100.0)
+    )
     check_series_stretch(z, first, second, turn, 100.0)
     with pytest.raises(AssertionError):
         check_series_stretch(z, second, first, turn, 101.0)

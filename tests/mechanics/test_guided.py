@@ -36,7 +36,9 @@ class Sloping:
 def sloping(lay_wire: Lay, guided: bool = True) -> Sloping:
     """Return a wire that climbs by 7 m over 16 m; the control has a frictionless joint, its node held at x by hand."""
     builder = UnknownsBuilder()
-    knots = np.concatenate((np.linspace(0.0, 6.2, 20)[:-1], np.arange(6.2, 8.6, 0.07), np.linspace(8.8, UNSTRESSED, 25)))
+    knots = np.concatenate(
+        (np.linspace(0.0, 6.2, 20)[:-1], np.arange(6.2, 8.6, 0.07), np.linspace(8.8, UNSTRESSED, 25))
+    )
     wire = lay_wire(builder, [0, 0, 0], [16, 0, 7], knots, Section(EA=2e4, EJ=20.0, rhoA=1.0))
     ends = builder.add(Kind.MULTIPLIER, np.zeros((2, 3)))
     node = builder.add(Kind.POSITION, np.array([[TRACK_X, 0.0, 3.0]]))

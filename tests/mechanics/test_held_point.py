@@ -38,7 +38,9 @@ def test_residual_by_hand() -> None:
     assert f[18] == 0.0, "the parameter's equation belongs to its control"
 
 
-def driven(lay_wire: Lay, turn: np.ndarray, signs: tuple[float, float]) -> tuple[System, Chain, np.ndarray, int]:
+def driven(
+    lay_wire: Lay, turn: np.ndarray, signs: tuple[float, float]
+) -> tuple[System, Chain, np.ndarray, int]:
     """Return an unstrained wire whose ends move by one parameter along its axis, with the given signs.
 
     The control is there because every parameter needs an equation; the tests keep the parameter at PULL.
@@ -64,7 +66,9 @@ def check_tightened(z: np.ndarray, wire: Chain, la: np.ndarray, turn: np.ndarray
     np.testing.assert_allclose(z[la], [T * turn[:, 0], -T * turn[:, 0]], rtol=1e-9, atol=1e-6)
 
 
-def test_shared_parameter_tightens_from_both_ends(lay_wire: Lay, solve_statics: Solve, turn: np.ndarray) -> None:
+def test_shared_parameter_tightens_from_both_ends(
+    lay_wire: Lay, solve_statics: Solve, turn: np.ndarray
+) -> None:
     system, wire, la, p = driven(lay_wire, turn, (-1.0, 1.0))
     start = system.unknowns.start.copy()
     start[wire.nodes] *= 1.001  # a little tension, or a straight wire has no stiffness across
@@ -72,7 +76,9 @@ def test_shared_parameter_tightens_from_both_ends(lay_wire: Lay, solve_statics: 
     check_tightened(z, wire, la, turn)
 
 
-def test_control_equal_signs_only_shift_the_wire(lay_wire: Lay, solve_statics: Solve, turn: np.ndarray) -> None:
+def test_control_equal_signs_only_shift_the_wire(
+    lay_wire: Lay, solve_statics: Solve, turn: np.ndarray
+) -> None:
     system, wire, la, p = driven(lay_wire, turn, (1.0, 1.0))
     start = system.unknowns.start.copy()
     start[wire.nodes] *= 1.001

@@ -129,7 +129,9 @@ def dropper() -> DropperForce:
 
 def controls(measure: Measure, parameter: NDArray[np.int64]) -> Controls:
     """Return controls whose errors lie on both curved branches of the law, far from its breaks."""
-    return aimed(Controls(parameter, measure, np.zeros(2), VelocityLaw(0.8, 0.5, 2.5), RAMP, RAMP), generic_state())
+    return aimed(
+        Controls(parameter, measure, np.zeros(2), VelocityLaw(0.8, 0.5, 2.5), RAMP, RAMP), generic_state()
+    )
 
 
 def aimed(part: Controls, state: State) -> Controls:

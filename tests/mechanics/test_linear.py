@@ -101,7 +101,9 @@ def check_point_masses(mass: csr_array, weight: np.ndarray) -> None:
     """2 kg and 3 kg at two nodes, and 0.5 kg more at the first."""
     velocity = np.zeros(SIZE)
     velocity[0:3], velocity[12:15] = [1.0, 2.0, 2.0], [0.0, 3.0, 4.0]
-    np.testing.assert_allclose(Inertia(mass).kinetic_energy(velocity), 0.5 * (2.5 * 9.0 + 3.0 * 25.0), rtol=1e-14)
+    np.testing.assert_allclose(
+        Inertia(mass).kinetic_energy(velocity), 0.5 * (2.5 * 9.0 + 3.0 * 25.0), rtol=1e-14
+    )
     expected = np.zeros(SIZE)
     expected[[2, 14]] = [-2.5, -3.0]
     np.testing.assert_allclose(weight, expected)

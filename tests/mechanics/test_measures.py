@@ -22,11 +22,15 @@ def test_reaction_is_the_size_of_the_force() -> None:
     measure = ReactionTension(LA, UNIT)
     check_pull(measure, np.array([3.0, 4.0, 12.0, -6.0, 5.0, -8.0]), [13.0, np.sqrt(125.0)])
     with pytest.raises(AssertionError):
-        check_pull(ReactionTension(LA, -UNIT), np.array([3.0, 4.0, 12.0, -6.0, 5.0, -8.0]), [13.0, np.sqrt(125.0)])
+        check_pull(
+            ReactionTension(LA, -UNIT), np.array([3.0, 4.0, 12.0, -6.0, 5.0, -8.0]), [13.0, np.sqrt(125.0)]
+        )
 
 
 def test_reaction_is_negative_under_compression() -> None:
-    check_pull(ReactionTension(LA, UNIT), np.array([-3.0, 4.0, 12.0, 6.0, 5.0, 8.0]), [-13.0, -np.sqrt(125.0)])
+    check_pull(
+        ReactionTension(LA, UNIT), np.array([-3.0, 4.0, 12.0, 6.0, 5.0, 8.0]), [-13.0, -np.sqrt(125.0)]
+    )
 
 
 def test_reaction_without_force() -> None:
@@ -40,7 +44,9 @@ def test_reaction_without_force() -> None:
 
 
 def strain_measure() -> tuple[StrainTension, np.ndarray]:
-    chain = Chain(np.arange(18, dtype=np.int64).reshape(3, 6), np.array([0.0, 1.0, 3.0]), Section(2e3, 1.0, 1.0))
+    chain = Chain(
+        np.arange(18, dtype=np.int64).reshape(3, 6), np.array([0.0, 1.0, 3.0]), Section(2e3, 1.0, 1.0)
+    )
     z = np.random.default_rng(4).normal(size=20)
     z[18:] = [0.3, 2.9]
     return StrainTension(chain, np.array([18, 19]), np.array([0, 1])), z

@@ -33,7 +33,9 @@ class Deflected:
     la: np.ndarray
 
 
-def deflected(lay_wire: Lay, turn: np.ndarray, X: np.ndarray, knots: np.ndarray, sliding: bool = True) -> Deflected:
+def deflected(
+    lay_wire: Lay, turn: np.ndarray, X: np.ndarray, knots: np.ndarray, sliding: bool = True
+) -> Deflected:
     """Return the wire in a generic orientation; the control `sliding=False` holds the node at START instead."""
     builder = UnknownsBuilder()
     wire = lay_wire(builder, turn @ [0, 0, 0], turn @ [SPAN, 0, 0], knots, SECTION)
@@ -117,7 +119,9 @@ def test_mesh_friction_vanishes_with_order_two(lay_wire: Lay, solve_statics: Sol
     assert errors[-1] < 5e-5
 
 
-def test_result_does_not_depend_on_the_starting_element(lay_wire: Lay, solve_statics: Solve, turn: np.ndarray) -> None:
+def test_result_does_not_depend_on_the_starting_element(
+    lay_wire: Lay, solve_statics: Solve, turn: np.ndarray
+) -> None:
     """From elements on either side of the answer, near and far."""
     model = deflected(lay_wire, turn, X, graded())
     support, found = model.system.contributions[2], []

@@ -37,7 +37,9 @@ def test_residual_by_hand() -> None:
     np.testing.assert_allclose(f[18:], np.concatenate((z[0:3] - z[6:9], z[6:9] - z[12:15])))
 
 
-def gerber_beam(lay_wire: Lay, solve_statics: Solve, hinged: bool) -> tuple[np.ndarray, np.ndarray, Chain, Chain]:
+def gerber_beam(
+    lay_wire: Lay, solve_statics: Solve, hinged: bool
+) -> tuple[np.ndarray, np.ndarray, Chain, Chain]:
     """Return the solution of a cantilever that carries one end of a beam whose other end is supported."""
     builder = UnknownsBuilder()
     first = lay_wire(builder, [0, 0, 0], [A, 0, 0], np.linspace(0.0, A, 4), SECTION)

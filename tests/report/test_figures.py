@@ -39,7 +39,7 @@ def lines_of(figure: Figure, panel: int = 0) -> dict[str, Any]:
 
 
 def cut_off(figure: Figure) -> list[str]:
-    """Name the panels and titles that reach over the figure's edge, and the legends that leave their panel."""
+    """Name the panels and titles that reach over the figure's edge, and legends outside their panel."""
     FigureCanvasAgg(figure).draw()
     found = [text.get_text() for text in figure.texts if not _within(text.get_window_extent(), figure.bbox)]
     for axes in figure.axes:

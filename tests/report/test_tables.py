@@ -45,7 +45,8 @@ def test_dropper_schedule(result: FormResult, tmp_path: Path) -> None:
     assert len(rows) == 21
     assert list(rows[0]) == [
         "span", "dropper", "x_m", "length_m", "cut_length_m", "unstressed_length_m", "force_top_N",
-        "force_bottom_N", "height_m", "target_height_m", "height_error_m", "messenger_height_m", "force_error_N",
+        "force_bottom_N", "height_m", "target_height_m", "height_error_m", "messenger_height_m",
+        "force_error_N",
     ]  # fmt: skip
     assert (rows[8]["span"], rows[8]["dropper"], rows[8]["x_m"]) == ("2", "2", "78.50000")
     for row, length, force in zip(rows, result.droppers.length, result.droppers.force_bottom, strict=True):

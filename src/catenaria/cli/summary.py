@@ -28,16 +28,8 @@ def show_result(result: FormResult, console: Console) -> None:
 
 def _dropper_table(result: FormResult) -> Table:
     droppers = result.droppers
-    table = _table(
-        "Droppers",
-        "span",
-        "dropper",
-        "x [m]",
-        "length [m]",
-        "cut length [m]",
-        "force [N]",
-        "height error [mm]",
-    )
+    columns = ("span", "dropper", "x [m]", "length [m]", "cut to [m]", "force [N]", "height error [mm]")
+    table = _table("Droppers", *columns)
     for i in range(min(_MOST_ROWS, len(droppers.x))):
         table.add_row(
             str(droppers.span[i]),
@@ -52,7 +44,7 @@ def _dropper_table(result: FormResult) -> Table:
 
 
 def _wire_table(result: FormResult) -> Table:
-    table = _table("Wires", "", "tension [N]", "wanted [N]", "cut to [m]", "end travel [mm]", "sag [mm]")
+    table = _table("Wires", "", "tension [N]", "wanted [N]", "cut to [m]", "travel [mm]", "sag [mm]")
     for wire in result.wires:
         table.add_row(
             wire.name,
@@ -66,9 +58,11 @@ def _wire_table(result: FormResult) -> Table:
 
 
 def _table(title: str, *columns: str) -> Table:
-    table = Table(title=title, title_justify="left", title_style="bold", box=box.SIMPLE_HEAD, pad_edge=False)
+    table = Table(
+        title=title, title_justify="left", title_style="bold", box=box.SIMPLE_HEAD, padding=(0, 1, 0, 0)
+    )
     for column in columns:
-        table.add_column(column, justify="right" if column else "left")
+        table.add_column(column, justify="right" if column else "left", no_wrap=True)
     return table
 
 

@@ -42,6 +42,7 @@ def _unsupported(line: Line) -> Iterator[tuple[Path, str]]:
     for i, support in enumerate(line.supports):
         for field, what in _support(support):
             yield ("supports", i, *field), what
+    yield from _heights(line)
     for i, span in enumerate(line.spans):
         if span.pre_sag != 0.0:
             yield ("spans", i, "pre_sag"), "a pre-sag other than 0 (a list of heights is)"
@@ -57,6 +58,16 @@ def _wires(line: Line) -> Iterator[tuple[Path, str]]:
             yield (field, "tension", "pulled"), f"a wire that is pulled at its {wire.tension.pulled} only"
     for i, wire in enumerate(line.other_wires):
         yield ("other_wires", i), f"a {wire.kind} wire besides contact and messenger wire"
+
+
+def _heights(line: Line) -> Iterator[tuple[Path, str]]:
+    """Yield supports that hold a wire higher or lower than its first support does: wires are laid out level."""
+    contact = line.supports[line.contact_support_indices[0]].contact_wire
+    for i, support in enumerate(line.supports):
+        if contact and support.contact_wire and support.contact_wire.height != contact.height:
+            yield ("supports", i, "contact_wire", "height"), "a contact wire held at different heights"
+        if abs(support.messenger_height - line.supports[0].messenger_height) > 1e-9:
+            yield ("supports", i, "messenger_wire"), "a messenger wire held at different heights"
 
 
 def _support(support: Support) -> Iterator[tuple[Path, str]]:

@@ -16,7 +16,7 @@ from catenaria.results import FormResult, History
 _TIME = "simulated time [s]"
 _MOST_JOINTS = 6
 _DASHES = ("-", "--", ":", "-.")
-_ERROR_FLOOR = 1e-2  # of a dead band: smaller errors say nothing
+_ERROR_FLOOR = 0.1  # of a dead band: smaller errors say nothing
 _ENERGY_FLOOR = 1e-12  # of the largest energy: rounding
 
 
@@ -48,7 +48,9 @@ def velocity_figure(result: FormResult) -> Figure:
         velocity = 1e3 * history.velocity
         style.line(rows[0][i], history.time, velocity[:, pulls].mean(axis=1), style.BLUE, "outwards")
         style.lines(rows[1][i], history.time, velocity[:, ~pulls], style.GREEN, "dropper")
+        style.logarithmic_both_ways(rows[1][i], velocity[:, ~pulls])
         for axes, moved in ((rows[0][i], "wire ends"), (rows[1][i], "dropper ends")):
+            style.logarithmic_time(axes, history.time)
             style.describe(axes, f"{title}, {moved}", _TIME, "velocity [mm/s]")
             style.legend(axes, 1)
     return figure
@@ -72,6 +74,7 @@ def error_figure(result: FormResult) -> Figure:
         ):
             error = np.abs(scale * history.error[:, chosen])
             _error_lines(axes, history, error, scale * float(band[chosen].max()), unit)
+            style.logarithmic_time(axes, history.time)
             style.describe(axes, f"{title}, {quantity}", _TIME, f"{quantity} [{unit}]")
             style.legend(axes, 3)
     return figure
@@ -87,6 +90,7 @@ def energy_figure(result: FormResult) -> Figure:
         style.logarithmic(axes)
         for colour, (name, energy) in zip(style.CYCLE, energies.items(), strict=False):
             style.line(axes, history.time, np.where(energy > floor, energy, np.nan), colour, name)
+        style.logarithmic_time(axes, history.time)
         style.describe(axes, title, _TIME, "energy [J]")
         style.legend(axes, 3)
     return figure

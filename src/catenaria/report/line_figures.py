@@ -61,8 +61,8 @@ def tension_figure(result: FormResult, wire: WireForm) -> Figure:
     """Draw the tension along a wire, as in Figs. 24 and 25."""
     profile, colour = wire.profile, style.WIRE_COLOURS.get(wire.name, style.DARK)
     text = (
-        f"Tension is the axial force EA ε |r'|. Between the end supports it is "
-        f"{wire.tension_min:.1f} N to {wire.tension_max:.1f} N."
+        f"Tension is the axial force: {wire.tension_min:.1f} N to {wire.tension_max:.1f} N between the end "
+        "supports. N is the strain tension at each single point."
     )
     figure, [[axes]] = style.new_figure(f"Tension along the {wire.name} in equilibrium", text, [3.6])
     style.line(axes, profile.x, 1e-3 * profile.strain_tension, style.GREY, "N = EA ε, eq. (11)", width=0.8)

@@ -1,8 +1,8 @@
 """One look for all figures, set on each figure itself and never on matplotlib's global parameters.
 
 Colours are those of Okabe and Ito (2008), which remain distinct with every kind of colour blindness. Margins
-are fixed, because matplotlib's automatic layouts draw every figure twice. All calls of matplotlib that take
-style arguments are in this file, because matplotlib does not declare their types.
+and places of labels are fixed, because matplotlib's automatic layouts draw every figure twice. All calls of
+matplotlib that take style arguments are in this file, because matplotlib does not declare their types.
 """
 
 # pyright: reportUnknownMemberType=false
@@ -28,6 +28,8 @@ DOTS_PER_INCH = 150
 _INK = 10.0  # font size [pt]
 _WIDTH = 10.0  # of a figure [inch]; so are the margins
 _LEFT, _RIGHT, _TOP, _BOTTOM, _BETWEEN = 0.9, 0.25, 1.2, 0.62, 1.05
+_LABEL_BELOW, _LABEL_LEFT = 0.4, 0.72
+_SHORTEST = 1e-4  # of the longest time, on a logarithmic time axis
 _MOST_LINES = 60
 _MOST_NAMES = 16
 
@@ -70,7 +72,7 @@ def new_figure(
 
 def describe(axes: Axes, title: str, x: str, y: str) -> None:
     """Write the title of a panel and the quantity and unit of its axes, and draw a quiet grid."""
-    axes.set_title(title, loc="left", fontsize=_INK + 1, color=DARK, pad=17)
+    axes.set_title(title, loc="left", fontsize=_INK + 1, color=DARK, y=1.0, pad=17)
     axes.set_xlabel(x, fontsize=_INK, color=DARK)
     axes.set_ylabel(y, fontsize=_INK, color=DARK)
     axes.tick_params(labelsize=_INK - 1, color=GREY, labelcolor=DARK)
@@ -78,6 +80,9 @@ def describe(axes: Axes, title: str, x: str, y: str) -> None:
     axes.set_axisbelow(True)
     axes.spines[["top", "right"]].set_visible(False)
     axes.margins(x=0.01, y=0.08)
+    wide, high = _inches(axes)
+    axes.get_xaxis().set_label_coords(0.5, -_LABEL_BELOW / high)
+    axes.get_yaxis().set_label_coords(-_LABEL_LEFT / wide, 0.5)
     if axes.get_yscale() == "linear":
         axes.ticklabel_format(axis="y", useOffset=False)
 
@@ -85,6 +90,21 @@ def describe(axes: Axes, title: str, x: str, y: str) -> None:
 def logarithmic(axes: Axes) -> None:
     """Give a panel a logarithmic vertical scale."""
     axes.set_yscale("log")
+
+
+def logarithmic_both_ways(axes: Axes, y: FloatArray) -> None:
+    """Give a panel a vertical scale that is linear about zero and logarithmic for the larger values of y."""
+    largest = float(np.max(np.abs(y)))
+    if largest > 0.0:
+        decades = 10.0 ** (np.floor(np.log10(largest)) - np.arange(3))
+        axes.set_yscale("symlog", linthresh=float(decades[-1]))
+        axes.set_yticks(np.concatenate((-decades, [0.0], decades[::-1])))
+
+
+def logarithmic_time(axes: Axes, t: FloatArray) -> None:
+    """Give a panel a logarithmic time axis, which shows the start and the long approach alike."""
+    axes.set_xscale("log")
+    axes.set_xlim(max(float(t[t > 0.0][0]), _SHORTEST * float(t[-1])), float(t[-1]))
 
 
 def line(
