@@ -1,6 +1,6 @@
 """Small models and a dense Newton method for the tests of the mechanics layer.
 
-The Newton method is deliberately not the package's own: a fault of the solvers must not hide one of the mechanics.
+The Newton method is deliberately not the package's own: no fault of the solvers may hide one here.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ def _solve_statics(
     load: np.ndarray | None = None,
     longest_step: float = 0.5,
 ) -> tuple[System, np.ndarray]:
-    """Return system and equilibrium; unknowns in `fixed` keep their value, `load` is a dead load on the rows."""
+    """Return system and equilibrium; unknowns in `fixed` keep their value, `load` is a dead load."""
     z = z.copy()
     free = np.setdiff1d(np.arange(z.size), np.asarray(fixed, dtype=int))
     bounded = ~system.unknowns.where(Kind.MULTIPLIER)[free]

@@ -1,4 +1,4 @@
-"""Consistent mass (14) and gravity (17) of the cable element against quadrature, closed forms and rigid motions."""
+"""Consistent mass (14) and gravity (17) of the cable against quadrature, closed forms and rigid motions."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def one(L: float) -> CableElements:
     return CableElements(dofs, np.array([L]), np.array([1.0]), np.array([1.0]), np.array([RHO_A]))
 
 
-def S(arc: float, L: float) -> np.ndarray:
+def shape_matrix(arc: float, L: float) -> np.ndarray:
     """Return the shape matrix (2), with (3)-(4) put right, as a function of the arc length."""
     s = 2.0 * arc / L - 1.0
     N1, N2 = 0.25 * (s - 1.0) ** 2 * (s + 2.0), 0.25 * (s + 1.0) ** 2 * (2.0 - s)
@@ -29,13 +29,13 @@ def S(arc: float, L: float) -> np.ndarray:
 
 def check_mass(M: np.ndarray, L: float) -> None:
     """(14) by adaptive quadrature."""
-    expected = RHO_A * quad_vec(lambda arc: S(arc, L).T @ S(arc, L), 0.0, L)[0]
+    expected = RHO_A * quad_vec(lambda arc: shape_matrix(arc, L).T @ shape_matrix(arc, L), 0.0, L)[0]
     np.testing.assert_allclose(M, expected, rtol=1e-12, atol=1e-14 * expected.max())
 
 
 def check_weight(weight: np.ndarray, L: float) -> None:
     """(17) by adaptive quadrature, with our downward axis n = (0, 0, -1)."""
-    expected = RHO_A * quad_vec(lambda arc: S(arc, L).T @ np.array([0.0, 0.0, -1.0]), 0.0, L)[0]
+    expected = RHO_A * quad_vec(lambda arc: shape_matrix(arc, L).T @ np.array([0.0, 0.0, -1.0]), 0.0, L)[0]
     np.testing.assert_allclose(weight, expected, rtol=1e-12, atol=1e-14)
 
 

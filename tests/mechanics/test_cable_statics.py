@@ -34,7 +34,7 @@ def dense_points(chain: Chain) -> np.ndarray:
 
 
 def cantilever_error(lay_wire: Lay, solve_statics: Solve, count: int, stiffer: float = 1.0) -> float:
-    """Return the largest error of a cantilever's small deflection under its own weight, relative to the tip's."""
+    """Return the largest error of a cantilever's small sag under its weight, relative to the tip's."""
     section, L = Section(EA=1e5, EJ=10.0, rhoA=1e-5), 2.0
     builder = UnknownsBuilder()
     chain = lay_wire(builder, [0, 0, 0], [L, 0, 0], np.linspace(0.0, L, count + 1), section)
@@ -49,7 +49,7 @@ def cantilever_error(lay_wire: Lay, solve_statics: Solve, count: int, stiffer: f
 
 
 def test_cantilever(lay_wire: Lay, solve_statics: Solve) -> None:
-    """w = q s^2 (s^2 - 4 L s + 6 L^2)/(24 EJ); between nodes the cubic misses the quartic with order 4."""
+    """Deflection q s^2 (s^2 - 4 L s + 6 L^2)/(24 EJ); the cubic misses the quartic with order 4."""
     sizes = [2, 4, 8, 16]
     errors = [cantilever_error(lay_wire, solve_statics, count) for count in sizes]
     check_order(sizes, errors, 4.0, 1e-6)
@@ -77,10 +77,10 @@ def held_wire(
 
 
 def tensioned_beam_error(lay_wire: Lay, solve_statics: Solve, count: int, softer: float = 1.0) -> float:
-    """Return the largest error of the small sag of a tensioned beam between hinges, relative to the string's sag.
+    """Return the largest error of a tensioned beam's small sag between hinges, relative to the string's.
 
-    In material coordinates of a wire stretched by a: D w'''' - N w'' = -q with D = EJ/a^4 (curvature by arc length)
-    and N = EA (a^2 - 1)/2; decay length sqrt(D/N).
+    In material coordinates of a wire stretched by a: D w'''' - N w'' = -q with D = EJ/a^4
+    (curvature by arc length) and N = EA (a^2 - 1)/2; decay length sqrt(D/N).
     """
     section, L, stretch = Section(EA=1e4, EJ=60.0, rhoA=1e-7), 4.0, 1.02
     knots = np.linspace(0.0, L, count + 1)
@@ -118,12 +118,12 @@ def green_stretch(T: np.ndarray | float, EA: float) -> np.ndarray:
 def green_catenary(
     section: Section, L: float, span: tuple[float, float], s: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Return x, z of a perfectly flexible wire at s, and the force on its start, by quadrature and root finding."""
+    """Return x, z of a perfectly flexible wire at s, and the force on its start, by quadrature."""
     w = section.rhoA * G
 
     def slope(arc: float, force: np.ndarray) -> np.ndarray:
         pull = np.array([-force[0], -force[1] + w * arc])
-        T = np.linalg.norm(pull)
+        T = float(np.linalg.norm(pull))
         return green_stretch(T, section.EA) * pull / T
 
     def shape(force: np.ndarray, at: np.ndarray) -> np.ndarray:
@@ -136,7 +136,7 @@ def green_catenary(
 
 
 def hanging_wire(lay_wire: Lay, solve_statics: Solve, EJ: float) -> tuple[Chain, np.ndarray, np.ndarray]:
-    """Return a slack wire of 31 m between hinges 30 m apart and 2 m different in height, solved, and its end forces."""
+    """Return a solved slack wire of 31 m between hinges 30 m and 2 m apart, and its end forces."""
     section = Section(EA=2e4, EJ=EJ, rhoA=1.0)
     chain, system, la = held_wire(lay_wire, [0, 0, 0], [30, 0, 2], np.linspace(0.0, 31.0, 63), section)
     start = system.unknowns.start.copy()
@@ -164,7 +164,7 @@ def test_elastic_catenary(lay_wire: Lay, solve_statics: Solve) -> None:
 
 
 def test_elastic_catenary_closed_form(lay_wire: Lay, solve_statics: Solve) -> None:
-    """Irvine (1981), engineering strain, from the found end force: the laws differ by 3/2 eps^2, 0.1 mm here."""
+    """Irvine (1981), engineering strain, from the found end force: the laws differ by 3/2 eps^2."""
     chain, z, end_force = hanging_wire(lay_wire, solve_statics, EJ=1e-6)
     H, V, w, EA = -end_force[0, 0], -end_force[0, 2], G, 2e4
     s = dense_points(chain)

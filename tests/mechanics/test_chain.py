@@ -72,7 +72,7 @@ def test_continuous_across_elements() -> None:
 
 
 def test_control_positions_and_slopes_mixed_up_are_not_continuous() -> None:
-    """With the halves of the nodes exchanged, "position" is what the slope functions interpolate: wrong values."""
+    """With the halves of the nodes exchanged, the wrong functions interpolate positions."""
     exchanged = CHAIN.nodes[:, [3, 4, 5, 0, 1, 2]]
     s, element = np.array([2.5]), np.array([1])
     with pytest.raises(AssertionError):
@@ -91,7 +91,7 @@ def test_locate() -> None:
 
 
 def check_hysteresis(chain: Chain) -> None:
-    """A point within the overlap stays where it is, from either side; beyond it, it changes over and stays there."""
+    """A point within the overlap stays where it is; beyond it, it changes over and stays there."""
     for knot in (1, 2, 3):
         for element, side in ((knot - 1, 1.0), (knot, -1.0)):
             here = np.array([element])

@@ -62,7 +62,7 @@ def tension_loop(lay_wire: Lay, strain: bool) -> Loop:
 
 
 def dropper_loop(lay_wire: Lay, up: bool) -> Loop:
-    """Return a tensioned wire with one dropper cable: raised until the wire has a height, or pulled down to a force."""
+    """Return a tensioned wire with one dropper cable, raised to a height or pulled down to a force."""
     builder = UnknownsBuilder()
     wire = lay_wire(builder, [0, 0, 5], [10, 0, 5], np.linspace(0.0, 9.9, 21), Section(2e4, 10.0, 0.5))
     far = 6.0 if up else 4.0
@@ -175,7 +175,7 @@ def check_residual(control: Controls, state: State, expected: np.ndarray) -> Non
 
 @pytest.mark.parametrize(("t", "ramp"), [(0.0, 0.0), (1.0, 0.104), (5.0, 1.0), (9.0, 1.0)])
 def test_residual_by_hand(t: float, ramp: float) -> None:
-    """p' - ramp v(e): 1.5 too high saturates, 0.5 too low is halfway; the ramp of gravity brings both in."""
+    """Rate p' - ramp v(e): 1.5 too high saturates, 0.5 too low is halfway; the ramp brings both in."""
     z, zd = np.array([4.0, 2.0, 0.0, 0.0]), np.array([0.0, 0.0, 0.3, -0.2])
     law = VelocityLaw(0.1, 0.0, 1.0)
     control = Controls(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 import pytest
@@ -31,7 +32,7 @@ def constraint_gradient(part: FixedJoints, z: np.ndarray) -> np.ndarray:
     """Return C_q, shape (5, 12), by complex step."""
     rows = []
     for step in np.eye(17)[:12] * 1e-30j:
-        f = np.zeros(17, dtype=np.complex128)
+        f: Any = np.zeros(17, dtype=np.complex128)
         part.add_residual(State(0.0, z + step, z, z), f)
         rows.append(f[12:].imag / 1e-30)
     return np.array(rows).T
@@ -75,7 +76,7 @@ def test_dependent_only_at_a_right_angle(turn: np.ndarray) -> None:
 
 
 def test_control_printed_form_has_zero_gradient(turn: np.ndarray) -> None:
-    """Wherever the printed row holds, its gradient vanishes: linearised it fixes nothing. Elsewhere it does not."""
+    """Wherever the printed row holds, its gradient vanishes: linearised it fixes nothing."""
     z = joined(turn)
     gradient = printed_gradient(z[3:6], z[9:12])
     np.testing.assert_allclose(gradient, 0.0, atol=1e-15)
@@ -167,7 +168,7 @@ def test_slopes_may_differ_in_length(lay_wire: Lay, solve_statics: Solve, turn: 
 
 
 def loaded_wire(lay_wire: Lay, solve_statics: Solve, turn: np.ndarray, count: int, cut: bool) -> np.ndarray:
-    """Return the tip of a clamped wire under a generic large dead load, in one piece or cut at an inner node."""
+    """Return the tip of a clamped wire under a large dead load, in one piece or cut at a node."""
     knots = LENGTH * np.linspace(0.0, 1.0, count + 1) ** 1.3
     section, at = Section(EA=2e3, EJ=5.0, rhoA=1.0), count // 2
     builder = UnknownsBuilder()
@@ -202,3 +203,23 @@ def test_same_statics_as_shared_nodes(lay_wire: Lay, solve_statics: Solve, turn:
         assert np.linalg.norm(tips[0] - LENGTH * turn[:, 0]) > 0.5
     assert differences[2] < 1e-5
     assert differences[2] < 0.2 * differences[0]
+
+
+def check_sum_of_its_joints(batch: FixedJoints, singles: list[FixedJoints], z: np.ndarray) -> None:
+    """A batch is the sum of its joints, also where they share a node."""
+    total, f = np.zeros(z.size), np.zeros(z.size)
+    for single in singles:
+        single.add_residual(State.at_rest(z), total)
+    batch.add_residual(State.at_rest(z), f)
+    np.testing.assert_allclose(f, total, rtol=1e-13, atol=1e-14)
+
+
+def test_two_joints_on_one_node() -> None:
+    z = np.random.default_rng(6).normal(size=28)
+    i, hub, la = np.arange(12).reshape(2, 6), np.arange(12, 18), np.arange(18, 28).reshape(2, 5)
+    both, e = np.stack((hub, hub)), normals(np.eye(3)[:2])
+    for a, b in ((i, both), (both, i)):
+        singles = [FixedJoints(a[k : k + 1], b[k : k + 1], la[k : k + 1], e[k : k + 1]) for k in (0, 1)]
+        check_sum_of_its_joints(FixedJoints(a, b, la, e), singles, z)
+        with pytest.raises(AssertionError):
+            check_sum_of_its_joints(FixedJoints(a, b, la, e), singles[:1], z)

@@ -34,7 +34,7 @@ class Sloping:
 
 
 def sloping(lay_wire: Lay, guided: bool = True) -> Sloping:
-    """Return a wire that climbs by 7 m over 16 m; the control has a frictionless joint, its node held at x by hand."""
+    """Return a wire that climbs by 7 m over 16 m; the control has a frictionless joint instead."""
     builder = UnknownsBuilder()
     knots = np.concatenate(
         (np.linspace(0.0, 6.2, 20)[:-1], np.arange(6.2, 8.6, 0.07), np.linspace(8.8, UNSTRESSED, 25))
@@ -62,12 +62,12 @@ def solved(model: Sloping, solve_statics: Solve, held: np.ndarray | tuple[int, .
 
 
 def check_vertical_force(z: np.ndarray, ends: np.ndarray) -> None:
-    """What acts on the wire besides its ends has no component along the track: H is the same on both sides."""
+    """What acts on the wire besides its ends has no component along the track: H is continuous."""
     H = z[ends][:, 0]
     np.testing.assert_allclose(H[0], -H[1], rtol=1e-9)
 
 
-def check_jump(z: np.ndarray, ends: np.ndarray, la_z: float, slope: np.ndarray) -> None:
+def check_jump(z: np.ndarray, ends: np.ndarray, la_z: np.ndarray, slope: np.ndarray) -> None:
     """The tension after the clamp less that before is la_z times z'/|r'| (midpoint rule of the kink: 1 %)."""
     T = np.linalg.norm(z[ends], axis=1)
     np.testing.assert_allclose(T[1] - T[0], la_z * slope[2] / np.linalg.norm(slope), rtol=1e-2)
@@ -113,7 +113,7 @@ def test_control_frictionless_joint_pulls_along_the_track(lay_wire: Lay, solve_s
 
 
 def test_sideways_force_is_carried(lay_wire: Lay, solve_statics: Solve) -> None:
-    """In y the joint ties wire and dropper: stagger loads pass, and the force on the wire stays normal to the track."""
+    """In y the joint ties wire and dropper: stagger loads pass, with no force along the track."""
     model = sloping(lay_wire)
     load = np.zeros(model.system.size)
     load[model.node[0]] = [0.0, 40.0, -LOAD]

@@ -28,8 +28,7 @@ def test_residual_by_hand() -> None:
     z = np.random.default_rng(5).normal(size=19)
     nodes, la = np.arange(9).reshape(3, 3), np.arange(9, 18).reshape(3, 3)
     X = np.random.default_rng(6).normal(size=(3, 3))
-    n = np.array([[np.nan] * 3, [-0.6, 0.0, 0.8], [0.6, 0.0, -0.8]])
-    n[0] = 7.0  # unused where there is no parameter
+    n = np.array([[7.0, 7.0, 7.0], [-0.6, 0.0, 0.8], [0.6, 0.0, -0.8]])  # the first is not used
     f = np.zeros(19)
     HeldPoints(nodes, la, X, n, np.array([-1, 18, 18])).add_residual(State.at_rest(z), f)
     moved = X + np.array([0.0, z[18], z[18]])[:, None] * n

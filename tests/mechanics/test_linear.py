@@ -71,13 +71,13 @@ def test_dissipation_is_never_negative(stretch: float) -> None:
 
 
 def test_control_compressed_start_feeds_energy_in() -> None:
-    """K_0 of a compressed wire is indefinite, which is why the starting configuration must not be compressed."""
+    """K_0 of a compressed wire is indefinite: do not take K_0 from one."""
     with pytest.raises(AssertionError):
         check_dissipates(RayleighDamping(BETA * matrices(stretch=0.9)[1]))
 
 
 def test_assemble_adds_up_and_stores_no_zeros() -> None:
-    elements, z = wire()
+    elements, _ = wire()
     expected = np.zeros((SIZE, SIZE))
     for dofs, matrix in zip(elements.dofs, elements.mass(), strict=True):
         expected[np.ix_(dofs, dofs)] += matrix

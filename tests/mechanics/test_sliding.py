@@ -36,7 +36,7 @@ class Deflected:
 def deflected(
     lay_wire: Lay, turn: np.ndarray, X: np.ndarray, knots: np.ndarray, sliding: bool = True
 ) -> Deflected:
-    """Return the wire in a generic orientation; the control `sliding=False` holds the node at START instead."""
+    """Return the wire in a generic orientation; the control holds a node instead."""
     builder = UnknownsBuilder()
     wire = lay_wire(builder, turn @ [0, 0, 0], turn @ [SPAN, 0, 0], knots, SECTION)
     ends = builder.add(Kind.MULTIPLIER, np.zeros((2, 3)))
@@ -60,7 +60,7 @@ def tension(wire: Chain, z: np.ndarray, s: float) -> float:
 
 
 def check_frictionless(wire: Chain, z: np.ndarray, ends: np.ndarray, la: np.ndarray) -> None:
-    """Equal tension on both sides, at the ends and in the wire; the force on the support bisects the angle."""
+    """Equal tension on both sides, at the ends and in the wire; the force bisects the angle."""
     pull = z[ends]
     T = np.linalg.norm(pull, axis=1)
     np.testing.assert_allclose(T[0], T[1], rtol=5e-5)
@@ -112,7 +112,7 @@ def asymmetry(lay_wire: Lay, solve_statics: Solve, turn: np.ndarray, width: floa
 
 
 def test_mesh_friction_vanishes_with_order_two(lay_wire: Lay, solve_statics: Solve, turn: np.ndarray) -> None:
-    """A force within an element meets a cubic that cannot kink in its third derivative: the mesh holds the wire a little."""
+    """Within an element the third derivative cannot jump at the force: the mesh holds the wire a little."""
     errors = [asymmetry(lay_wire, solve_statics, turn, width) for width in (0.2, 0.1, 0.05)]
     order = -np.polyfit([0.0, 1.0, 2.0], np.log2(errors), 1)[0]
     assert 1.5 < order < 2.5, f"order {order}"
@@ -137,7 +137,7 @@ def test_result_does_not_depend_on_the_starting_element(
 
 
 def test_no_cycling_at_a_boundary(lay_wire: Lay, solve_statics: Solve, turn: np.ndarray) -> None:
-    """With a symmetric support the answer is the middle knot itself; from either side the point comes to rest."""
+    """With a symmetric support the answer is the middle knot; from either side it is found."""
     middle, aside = 0.5 * UNSTRESSED, np.array([0.5 * SPAN, 0.0, 0.8])
     for side in (-1, 0):
         model = deflected(lay_wire, turn, aside, np.linspace(0.0, UNSTRESSED, 41))
@@ -153,7 +153,7 @@ def test_no_cycling_at_a_boundary(lay_wire: Lay, solve_statics: Solve, turn: np.
 
 
 def ring(lay_wire: Lay) -> tuple[Chain, System, np.ndarray, np.ndarray, np.ndarray]:
-    """Return a slack wire between hinges at different heights that carries a ring of no mass, and its numbers."""
+    """Return a slack wire between hinges of different height with a massless ring, and its numbers."""
     builder = UnknownsBuilder()
     wire = lay_wire(builder, [0, 0, 0], [10, 0, 1], np.linspace(0.0, 10.8, 109), replace(SECTION, EJ=20.0))
     ends = builder.add(Kind.MULTIPLIER, np.zeros((2, 3)))
@@ -172,7 +172,7 @@ def ring(lay_wire: Lay) -> tuple[Chain, System, np.ndarray, np.ndarray, np.ndarr
 
 
 def check_ring(r: np.ndarray, length: float) -> None:
-    """The lowest point of the ellipse: both branches equally steep, so the horizontal span is length cos(angle)."""
+    """The lowest point of the ellipse: both branches equally steep, span = length cos(angle)."""
     left, right = r, np.array([10.0, 0.0, 1.0]) - r
     np.testing.assert_allclose(-left[2] / left[0], right[2] / right[0], rtol=4e-2)
     angle = np.arccos(10.0 / length)
@@ -181,7 +181,7 @@ def check_ring(r: np.ndarray, length: float) -> None:
 
 
 def test_point_load_on_a_wire(lay_wire: Lay, solve_statics: Solve) -> None:
-    """A loaded ring finds the place where both sides pull equally; the wire's force on it is minus the load."""
+    """A loaded ring rests where both sides pull equally; the wire's force on it is minus the load."""
     wire, system, ends, node, la = ring(lay_wire)
     load = np.zeros(system.size)
     load[node[0, 2]] = -500.0

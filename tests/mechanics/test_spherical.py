@@ -25,7 +25,7 @@ G = 9.81
 
 
 def test_residual_by_hand() -> None:
-    """Two joints, one node in both: distances to the multipliers, forces to the nodes, nothing to the slopes."""
+    """Two joints, one node in both: gaps to multipliers, forces to nodes, nothing to slopes."""
     z = np.random.default_rng(3).normal(size=24)
     nodes = np.arange(18).reshape(3, 6)
     la = np.arange(18, 24).reshape(2, 3)
@@ -78,3 +78,20 @@ def test_transmits_no_moment(lay_wire: Lay, solve_statics: Solve) -> None:
 def test_control_fixed_joint_transmits_it(lay_wire: Lay, solve_statics: Solve) -> None:
     with pytest.raises(AssertionError):
         check_hinge(*gerber_beam(lay_wire, solve_statics, hinged=False))
+
+
+def check_hub(part: Contribution, hub: np.ndarray, z: np.ndarray, forces: np.ndarray) -> None:
+    """The hub feels what the two joints exert together, minus the sum of the forces on the others."""
+    f = np.zeros(z.size)
+    part.add_residual(State.at_rest(z), f)
+    np.testing.assert_allclose(f[hub], -forces.sum(axis=0), rtol=1e-13)
+
+
+def test_two_nodes_may_hang_on_one() -> None:
+    """A batch in which both joints have the same second node, as where three wires meet."""
+    z = np.random.default_rng(3).normal(size=15)
+    i, hub, la = np.arange(6).reshape(2, 3), np.arange(6, 9), np.arange(9, 15).reshape(2, 3)
+    check_hub(SphericalJoints(i, np.stack((hub, hub)), la), hub, z, z[la])
+    check_hub(SphericalJoints(np.stack((hub, hub)), i, la), hub, z, -z[la])
+    with pytest.raises(AssertionError):
+        check_hub(SphericalJoints(i[1:], hub[None, :], la[1:]), hub, z, z[la])

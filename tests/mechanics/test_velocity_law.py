@@ -18,9 +18,12 @@ seeded = settings(derandomize=True, deadline=None)
 class Law(Protocol):
     """What the checks need of a law."""
 
-    v_s: float
-    e0: float
-    e1: float
+    @property
+    def v_s(self) -> float: ...
+    @property
+    def e0(self) -> float: ...
+    @property
+    def e1(self) -> float: ...
 
     def velocity(self, e: np.ndarray) -> np.ndarray:
         """Return v(e)."""
@@ -46,12 +49,12 @@ def yang(law: Law, e: float, misprint: bool = False) -> float:
         return v_s
     if e > T1:
         return -v_s
-    if T0 < e:
+    if e > T0:
         x = (e - T0) / (T1 - T0)
         return -v_s * x**2 * (3.0 - 2.0 * x)
-    if -T0 < e:
+    if e > -T0:
         return 0.0
-    if -T1 < e:
+    if e > -T1:
         x = (e + T1) / (T1 - T0)
         return v_s - v_s * x**2 * (3.0 - 2.0 * x)
     return v_s
@@ -134,7 +137,7 @@ def test_never_pushes_away(law: VelocityLaw, first: float, second: float) -> Non
 @seeded
 @given(laws, st.floats(-3.0, 3.0))
 def test_beyond(law: VelocityLaw, relative: float) -> None:
-    """e less its nearest point of the dead band."""
+    """Error less its nearest point of the dead band."""
     e = relative * law.e1
     np.testing.assert_allclose(
         law.beyond(np.array([e]))[0], e - np.clip(e, -law.e0, law.e0), rtol=1e-12, atol=1e-12 * law.e1

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 import pytest
 
 from catenaria.numerics.hermite import shape, shape_1, shape_2
 
-Function = Callable[[np.ndarray, np.ndarray], np.ndarray]
+Function = Callable[[Any, np.ndarray], Any]
 LENGTHS = [0.05, 1.0, 2.4, 65.0]
 XI = np.array([-1.0, -0.83, -0.2, 0.0, 0.37, 0.91, 1.0, 1.4])
 

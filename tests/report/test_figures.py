@@ -155,7 +155,7 @@ def test_very_many_droppers_are_thinned_out_and_that_is_said(
     make_result: Callable[[int], FormResult],
 ) -> None:
     figure = history_figures.velocity_figure(make_result(40))
-    assert "one in 5 droppers" in lines_of(figure, 2)
+    assert "1 in 5 droppers" in lines_of(figure, 2)
     assert len(figure.axes[2].get_lines()) == 56
 
 

@@ -25,7 +25,7 @@ class Problem:
         self.constraint = np.zeros(self.size, dtype=bool)
         self.constraint[list(multipliers)] = True
         self.error_scale = np.where(self.order_of > 0, error, np.inf)
-        self.newton_scale = np.where(self.order_of > 0, newton, np.inf)
+        self.newton_scale = np.where(self.order_of > 0, newton, 1e-6)
 
     def reselect(self, y):
         return None

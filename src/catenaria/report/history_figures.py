@@ -39,9 +39,7 @@ def support_tension_figure(result: FormResult) -> Figure:
 
 def velocity_figure(result: FormResult) -> Figure:
     """Draw the velocities of all controls, as in Fig. 10."""
-    text = (
-        "Each control moves a wire end or a dropper end, and rests while its error is within the dead band."
-    )
+    text = "A control rests within its dead band. Times and dropper velocities are on logarithmic scales."
     figure, rows = _by_step(result, "Velocities of the controls", text, [2.3, 2.3])
     for i, (history, title) in enumerate(zip(result.histories, _titles(result), strict=True)):
         pulls = _pulls(history)

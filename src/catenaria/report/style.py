@@ -14,6 +14,7 @@ from pathlib import Path
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.axis import Axis
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
@@ -27,8 +28,8 @@ WIRE_COLOURS = {"contact wire": RED, "messenger wire": BLUE}
 DOTS_PER_INCH = 150
 _INK = 10.0  # font size [pt]
 _WIDTH = 10.0  # of a figure [inch]; so are the margins
-_LEFT, _RIGHT, _TOP, _BOTTOM, _BETWEEN = 0.9, 0.25, 1.2, 0.62, 1.05
-_LABEL_BELOW, _LABEL_LEFT = 0.4, 0.72
+_LEFT, _RIGHT, _TOP, _BOTTOM, _BETWEEN = 1.0, 0.25, 1.2, 0.62, 1.05
+_LABEL_BELOW, _LABEL_LEFT = 0.28, 0.68
 _SHORTEST = 1e-4  # of the longest time, on a logarithmic time axis
 _MOST_LINES = 60
 _MOST_NAMES = 16
@@ -90,6 +91,7 @@ def describe(axes: Axes, title: str, x: str, y: str) -> None:
 def logarithmic(axes: Axes) -> None:
     """Give a panel a logarithmic vertical scale."""
     axes.set_yscale("log")
+    _plain_ticks(axes.get_yaxis())
 
 
 def logarithmic_both_ways(axes: Axes, y: FloatArray) -> None:
@@ -98,12 +100,14 @@ def logarithmic_both_ways(axes: Axes, y: FloatArray) -> None:
     if largest > 0.0:
         decades = 10.0 ** (np.floor(np.log10(largest)) - np.arange(3))
         axes.set_yscale("symlog", linthresh=float(decades[-1]))
+        _plain_ticks(axes.get_yaxis())
         axes.set_yticks(np.concatenate((-decades, [0.0], decades[::-1])))
 
 
 def logarithmic_time(axes: Axes, t: FloatArray) -> None:
     """Give a panel a logarithmic time axis, which shows the start and the long approach alike."""
     axes.set_xscale("log")
+    _plain_ticks(axes.get_xaxis())
     axes.set_xlim(max(float(t[t > 0.0][0]), _SHORTEST * float(t[-1])), float(t[-1]))
 
 
@@ -125,7 +129,7 @@ def lines(axes: Axes, x: FloatArray, y: FloatArray, colour: str, noun: str) -> N
     """Draw the columns of `y` as thin lines, one for each `noun`; if there are very many, only some."""
     count = y.shape[1]
     stride = -(-count // _MOST_LINES)
-    text = f"each {noun}" if stride == 1 else f"one in {stride} {noun}s"
+    text = f"each {noun}" if stride == 1 else f"1 in {stride} {noun}s"
     for i in range(0, count, stride):
         line(axes, x, y[:, i], colour, "" if i else text, width=0.6)
 
@@ -199,8 +203,8 @@ def legend(axes: Axes, columns: int) -> None:
         edgecolor="none",
         framealpha=1.0,
         borderaxespad=0.2,
-        handlelength=1.6,
-        columnspacing=1.2,
+        handlelength=1.3,
+        columnspacing=0.9,
     )
 
 
@@ -216,8 +220,14 @@ def state_exaggeration(axes: Axes, y_unit: float) -> None:
 
 def save(figure: Figure, file: Path) -> Path:
     """Write a figure as PNG without anything in it that depends on the day or the program's version."""
-    figure.savefig(file, dpi=DOTS_PER_INCH, metadata={"Software": None}, pil_kwargs={"compress_level": 3})
+    figure.savefig(file, dpi=DOTS_PER_INCH, metadata={"Software": None}, pil_kwargs={"compress_level": 1})
     return file
+
+
+def _plain_ticks(axis: Axis) -> None:
+    """Label powers of ten as plain numbers, because typesetting formulas takes longer than all else."""
+    axis.minorticks_off()
+    axis.set_major_formatter("{x:g}")
 
 
 def _inches(axes: Axes) -> tuple[float, float]:

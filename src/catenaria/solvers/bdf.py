@@ -73,7 +73,7 @@ def integrate(
             _give_up(start, steps, state, Status.TOO_MANY_STEPS)
         state = attempt(state, t_end, options)
         if state.accepted is None:
-            if options.constant_step is not None or state.h < _smallest_step(state, options):
+            if options.constant_step is not None or state.h < _smallest_step(state.history.t[0], options):
                 _give_up(start, steps, state, Status.STEP_FAILED)
             continue
         steps.append(state.accepted)
@@ -123,8 +123,8 @@ def _next_time(t: float, h: float, t_end: float, options: Options) -> tuple[floa
     return t + h, h
 
 
-def _smallest_step(state: State, options: Options) -> float:
-    return max(options.min_step, 16.0 * float(np.spacing(abs(state.history.t[0]))))
+def _smallest_step(t: float, options: Options) -> float:
+    return max(options.min_step, 16.0 * float(np.spacing(abs(t))))
 
 
 def _after_newton_failure(state: State, h: float, failure: str) -> State:
@@ -165,7 +165,7 @@ def _choose_next(
     order, ratio = after_acceptance({k: error, **errors}, k, held)
     if state.failures:
         ratio = min(ratio, 1.0)
-    next_h = min(ratio * h, options.max_step)
+    next_h = min(max(ratio * h, _smallest_step(t, options)), options.max_step)
     return replace(state, h=next_h, order=order, held=held if (order, next_h) == (k, h) else NOTHING_HELD)
 
 

@@ -7,13 +7,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from catenaria.solvers.linear import Factorisation, factorise, index3_scaling
+from catenaria.solvers.linear import Factorisation, Scaling, factorise, index3_scaling
 from catenaria.solvers.outcome import NO_WORK, Counters
 from catenaria.solvers.problem import DaeProblem, FloatArray
 
 MAX_ITERATIONS = 6
 MAX_RESELECTIONS = 8
-D0_BAND = 0.3  # relative change of d0 that a kept factorisation survives
+D0_BAND = 0.25  # relative change of d0 that a kept factorisation survives
 SLOW = 0.3  # contraction rate above which the next step begins with a new factorisation
 DIVERGING = 0.9
 UNKNOWN_RATE = 0.3  # taken for granted at the first iteration, whatever was seen before: matrices age
@@ -35,11 +35,24 @@ class StepEquations(NamedTuple):
 
 @dataclass(frozen=True)
 class Linearisation:
-    """Factorised Newton matrix with where it belongs and the largest contraction rate seen, 0 if none."""
+    """Factorised Newton matrix.
+
+    Attributes
+    ----------
+    problem, d0 : DaeProblem, float
+        Where it belongs.
+    factorisation : Factorisation
+        The factors.
+    negligible : FloatArray, shape (n,)
+        Size of a negligible correction.
+    rate : float
+        Largest contraction rate seen, 0 if none.
+    """
 
     problem: DaeProblem
     d0: float
     factorisation: Factorisation
+    negligible: FloatArray
     rate: float = 0.0
 
     def fits(self, problem: DaeProblem, d0: float) -> bool:
@@ -100,16 +113,34 @@ def _correct_once(
         if result.failure is None:
             return result
         work = result.work
-    yd, ydd = equations.rates(y)
-    d0 = equations.d0
-    matrix = problem.jacobian(equations.t, y, yd, ydd, d0, d0 * d0)
     work = work.plus(Counters(jacobians=1, factorisations=1))
     try:
-        factorisation = factorise(matrix, index3_scaling(matrix, problem.order_of, problem.constraint))
+        fresh = _linearise(problem, equations, y)
     except np.linalg.LinAlgError as error:
         return Correction(y, problem, None, work, str(error))
-    result = _iterate(equations, y, Linearisation(problem, d0, factorisation))
+    result = _iterate(equations, y, fresh)
     return replace(result, work=work.plus(result.work))
+
+
+def _linearise(problem: DaeProblem, equations: StepEquations, y: FloatArray) -> Linearisation:
+    """Factorise the Newton matrix at y."""
+    d0 = equations.d0
+    matrix = problem.jacobian(equations.t, y, *equations.rates(y), d0, d0 * d0)
+    scaling = index3_scaling(matrix, problem.order_of, problem.constraint)
+    return Linearisation(problem, d0, factorise(matrix, scaling), _negligible(problem, scaling))
+
+
+def _negligible(problem: DaeProblem, scaling: Scaling) -> FloatArray:
+    """Return `newton_scale`, for multipliers at least the inertia force of a negligible change of position.
+
+    No multiplier is known better than that, of the order of m d0^2 dq; a test that asked for more would fail
+    for small steps, and again for the smaller steps that follow the failure.
+    """
+    scale = problem.newton_scale
+    position = float(scale[problem.order_of == 2].min(initial=np.inf))
+    if not np.isfinite(position):
+        return scale
+    return np.where(problem.constraint, np.maximum(scale, scaling.row * position), scale)
 
 
 def _iterate(equations: StepEquations, y: FloatArray, linearisation: Linearisation) -> Correction:
@@ -123,7 +154,6 @@ def _iterate(equations: StepEquations, y: FloatArray, linearisation: Linearisati
     damping, mismatch = _account_for_d0(linearisation.d0, equations.d0, int(problem.order_of.max()))
     floor = max(linearisation.rate, mismatch)
     rate = max(floor, UNKNOWN_RATE)
-    inverse_scale = 1.0 / problem.newton_scale
     failure: str | None = "Newton's method converges too slowly"
     observed = linearisation.rate
     size = previous = 0.0
@@ -132,10 +162,10 @@ def _iterate(equations: StepEquations, y: FloatArray, linearisation: Linearisati
         residual = problem.residual(equations.t, y, *equations.rates(y))
         correction = solve(residual) * -damping
         y = y + correction
-        previous, size = size, float(np.abs(correction * inverse_scale).max())
-        if not np.isfinite(size):
+        if not np.isfinite(correction).all():
             failure = "the residual or a Newton correction is not finite"
             break
+        previous, size = size, float(np.abs(correction / linearisation.negligible).max())
         if iteration > 1:
             observed = max(observed, size / previous)
             rate = max(floor, size / previous)

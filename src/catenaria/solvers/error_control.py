@@ -13,18 +13,20 @@ SAFETY = 0.8
 GROWTH_LIMIT = 2.0  # below 1 + sqrt(2), up to which variable-step BDF-2 is zero-stable (Grigorieff 1983)
 SHRINK_LIMIT = 0.25
 KEEP_BAND = (0.9, 1.3)  # step ratios that are not worth a new factorisation
+NEGLIGIBLE = 1e-12  # errors below are treated alike, so that powers stay finite
+MEMORY = 0.8  # part of an earlier error that still counts one step later
 ORDER_GAIN = 1.1  # advantage in step length that another order must offer
 
 
 class Held(NamedTuple):
-    """How many accepted steps have had the present length and order, and the largest local error in them."""
+    """Number of accepted steps with the present length and order; their largest error, slowly forgotten."""
 
     steps: int = 0
     worst_error: float = 0.0
 
     def after(self, error: float) -> Held:
         """Return the record after one more accepted step."""
-        return Held(self.steps + 1, max(self.worst_error, error))
+        return Held(self.steps + 1, max(MEMORY * self.worst_error, error))
 
 
 NOTHING_HELD = Held()
@@ -70,8 +72,7 @@ def local_error(
 
 def step_ratio(error: float, order: int) -> float:
     """Return the ratio of steps for which the local error of the next step is acceptable with some safety."""
-    floor = GROWTH_LIMIT ** -(order + 2)  # keeps the power finite
-    return SAFETY * max(error, floor) ** (-1.0 / (order + 1))
+    return SAFETY * max(error, NEGLIGIBLE) ** (-1.0 / (order + 1))
 
 
 def after_rejection(error: float, order: int) -> float:

@@ -43,8 +43,8 @@ class DaeProblem(Protocol):
     Notes
     -----
     Multipliers and sliding coordinates are algebraic (order 0), also where their rates could be computed.
-    They do not belong in the error test of an index-3 system. The rounding error of a multiplier grows as
-    steps shrink: its `newton_scale` has to stay well above.
+    They do not belong in the error test of an index-3 system, but in the test of Newton's convergence, where
+    the scale of a multiplier is raised where its accuracy, which falls like h^-2, cannot reach it.
     """
 
     @property
