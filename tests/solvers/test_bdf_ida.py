@@ -9,7 +9,6 @@ from sksundae.ida import IDA
 from catenaria.solvers import Options, Start, integrate
 
 GRAVITY = 9.81
-LINKS = 5
 
 
 @pytest.fixture
@@ -76,7 +75,7 @@ def reference(problem, q, t_end):
     y = np.concatenate((q, np.zeros(n), la))
     yd = np.concatenate((np.zeros(n), gravity - G.T @ la, np.zeros(m)))
     solver = IDA(
-        residual, algebraic_idx=np.arange(2 * n, 2 * n + m), rtol=1e-11, atol=1e-11, max_num_steps=200_000
+        residual, algebraic_idx=np.arange(2 * n, 2 * n + m), rtol=1e-10, atol=1e-10, max_num_steps=100_000
     )
     solution = solver.solve(np.array([0.0, t_end]), y, yd)
     assert solution.success
@@ -84,26 +83,25 @@ def reference(problem, q, t_end):
     return end[:n], end[n : 2 * n], end[2 * n :], la
 
 
-@pytest.mark.parametrize(
-    ("links", "t_end", "digits"), [(1, 5.0, (1e-5, 5e-5, 5e-4)), (LINKS, 1.2, (2e-5, 2e-4, 5e-3))]
-)
-def test_pendulum_and_chain_agree_with_ida(chain, links, t_end, digits):
+@pytest.mark.parametrize(("links", "t_end"), [(1, 1.5), (4, 1.0)])
+def test_pendulum_and_chain_agree_with_ida(chain, links, t_end):
+    """Positions to 1 um, velocities and multipliers (relative) to five digits."""
     problem = chain(links, 1e-8, 1e-12)
     q = np.ravel([[0.8 * (i + 1), -0.6 * (i + 1)] for i in range(links)])
     q_ref, v_ref, la_ref, la_start = reference(problem, q, t_end)
     begin = Start(0.0, np.concatenate((q, la_start)), np.zeros(3 * links))
     solution = integrate(problem, begin, t_end, Options(max_order=5, max_step=2e-3))
     n = 2 * links
-    assert np.abs(solution.y[-1, :n] - q_ref).max() < digits[0]
-    assert np.abs(solution.yd[-1, :n] - v_ref).max() < digits[1]
-    assert np.abs(solution.y[-1, n:] - la_ref).max() < digits[2] * np.abs(la_ref).max()
+    assert np.abs(solution.y[-1, :n] - q_ref).max() < 1e-6
+    assert np.abs(solution.yd[-1, :n] - v_ref).max() < 5e-6
+    assert np.abs(solution.y[-1, n:] - la_ref).max() < 5e-6 * np.abs(la_ref).max()
     assert np.abs(q_ref - q).max() > 0.1
 
 
 def test_negative_control_another_gravity_does_not_agree(chain, monkeypatch):
     problem = chain(1, 1e-6, 1e-10)
     q = np.array([0.8, -0.6])
-    q_ref, _, _, la = reference(problem, q, 2.0)
+    q_ref, _, _, la = reference(problem, q, 1.0)
     monkeypatch.setitem(globals(), "GRAVITY", 1.001 * GRAVITY)
-    solution = integrate(problem, Start(0.0, np.array([*q, *la]), np.zeros(3)), 2.0)
-    assert np.abs(solution.y[-1, :2] - q_ref).max() > 3e-4
+    solution = integrate(problem, Start(0.0, np.array([*q, *la]), np.zeros(3)), 1.0)
+    assert np.abs(solution.y[-1, :2] - q_ref).max() > 1e-4

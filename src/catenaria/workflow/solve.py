@@ -6,8 +6,9 @@ from pathlib import Path
 
 from catenaria.errors import UnsupportedError
 from catenaria.formfinding.dynamic_equilibrium import DynamicEquilibrium
-from catenaria.formfinding.progress import Listener
+from catenaria.formfinding.progress import Listener, Progress
 from catenaria.line import Line, load_line, refuse_unsupported
+from catenaria.mechanics.kernels.warm_up import need_compiling, warm_up
 from catenaria.results.form import FormResult
 
 METHODS = {"dynamic": DynamicEquilibrium}
@@ -50,4 +51,7 @@ def solve(
     if not isinstance(line, Line):
         line = load_line(line)
     refuse_unsupported(line)
+    if progress is not None and need_compiling():
+        progress(Progress("compiling", 1, 3))
+        warm_up()
     return METHODS[method](progress).find_form(line, start)

@@ -1,0 +1,119 @@
+"""Newton-Raphson: quadratic convergence, damping, discrete states, typed failures."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.sparse import csc_array
+
+from catenaria.errors import NotConvergedError
+from catenaria.solvers.newton import NewtonOptions, solve_newton
+
+
+class Scalar:
+    """One equation f(y) = 0 with derivative f_y."""
+
+    newton_scale = np.array([1e-10])
+
+    def __init__(self, f, f_y):
+        self.f, self.f_y = f, f_y
+        self.residuals = 0
+
+    def residual(self, y):
+        self.residuals += 1
+        return np.array([self.f(y[0])])
+
+    def jacobian(self, y):
+        return csc_array(np.array([[self.f_y(y[0])]]))
+
+    def reselect(self, y):
+        return None
+
+
+class Broyden:
+    """Tridiagonal function of Broyden 1965: (3 - 2 y_i) y_i - y_{i-1} - 2 y_{i+1} + 1 = 0."""
+
+    def __init__(self, n, row_factor):
+        self.newton_scale = np.full(n, 1e-12)
+        self.factor = np.where(np.arange(n) % 2, row_factor, 1.0)
+
+    def residual(self, y):
+        inner = np.concatenate(([0.0], y, [0.0]))
+        return self.factor * ((3 - 2 * y) * y - inner[:-2] - 2 * inner[2:] + 1)
+
+    def jacobian(self, y):
+        n = y.size
+        full = np.diag(3 - 4 * y) - np.diag(np.ones(n - 1), -1) - 2 * np.diag(np.ones(n - 1), 1)
+        return csc_array(self.factor[:, None] * full)
+
+    def reselect(self, y):
+        return None
+
+
+@pytest.mark.parametrize("row_factor", [1.0, 1e8])
+def test_convergence_is_quadratic_and_does_not_depend_on_row_scaling(row_factor):
+    problem = Broyden(100, row_factor)
+    start = -np.ones(100)
+    root = solve_newton(problem, start)
+    assert root.converged
+    assert np.abs(problem.residual(root.y) / problem.factor).max() < 1e-13
+    assert root.corrections.size <= 5
+    size = root.corrections * 1e-12
+    assert size[-1] < 3 * size[-2] ** 2 + 1e-15
+    assert (root.damping == 1.0).all()
+    assert (start == -1.0).all()
+
+
+def test_negative_control_a_wrong_jacobian_is_not_quadratic(monkeypatch):
+    problem = Broyden(100, 1.0)
+    right = problem.jacobian
+    monkeypatch.setattr(problem, "jacobian", lambda y: 1.1 * right(y))
+    assert solve_newton(problem, -np.ones(100)).corrections.size > 6
+
+
+def test_damping_saves_an_iteration_that_would_diverge():
+    """Undamped Newton for arctan(y) = 0 diverges from |y| > 1.3917."""
+    root = solve_newton(Scalar(np.arctan, lambda y: 1.0 / (1.0 + y * y)), np.array([10.0]))
+    assert root.y[0] == pytest.approx(0.0, abs=1e-12)
+    assert root.damping[0] < 1.0
+    assert root.damping[-1] == 1.0
+
+
+def test_discrete_state_follows_the_iterates():
+    """f is y - 2 right of 1 and 3 y - 4 left of it; the state names the side."""
+
+    class Kink(Scalar):
+        def __init__(self, right):
+            super().__init__(
+                (lambda y: y - 2.0) if right else (lambda y: 3.0 * y - 4.0), lambda y: 1.0 if right else 3.0
+            )
+            self.right = right
+
+        def reselect(self, y):
+            return None if self.right == (y[0] > 1.0) else Kink(not self.right)
+
+    root = solve_newton(Kink(False), np.array([-3.0]))
+    assert root.y[0] == pytest.approx(2.0)
+    assert root.problem.right
+
+
+@pytest.mark.parametrize(
+    ("f", "f_y", "y", "complaint"),
+    [
+        (lambda y: y * y + 1.0, lambda y: 2.0 * y, 0.0, "singular"),
+        (lambda y: y * y + 1.0, lambda y: 2.0 * y, 0.3, "no damping|iterations"),
+        (lambda y: np.nan, lambda y: 1.0, 0.5, "not finite"),
+    ],
+)
+def test_failures_carry_their_reason_and_the_last_iterate(f, f_y, y, complaint):
+    with pytest.raises(NotConvergedError, match=complaint) as caught:
+        solve_newton(Scalar(f, f_y), np.array([y]))
+    assert not caught.value.partial.converged
+    assert np.isfinite(caught.value.partial.y).all()
+
+
+def test_iterations_are_limited():
+    problem = Scalar(lambda y: y**3, lambda y: 3.0 * y * y)
+    with pytest.raises(NotConvergedError, match="3 iterations") as caught:
+        solve_newton(problem, np.ones(1), NewtonOptions(max_iterations=3))
+    assert caught.value.partial.corrections.size == 3
