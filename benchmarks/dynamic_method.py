@@ -33,13 +33,14 @@ def timed(line: Line) -> tuple[float, FormResult]:
 def report(walls: Sequence[float], result: FormResult) -> str:
     """Return what was measured as text."""
     rows = [
-        f"{platform.processor() or platform.machine()}, {os.cpu_count()} processors, Python {platform.python_version()}",
+        f"{platform.machine()}, {os.cpu_count()} processors, Python {platform.python_version()}",
         f"{result.name}: {len(walls)} warm runs, both wires: median {statistics.median(walls):.3f} s, "
         f"{min(walls):.3f} to {max(walls):.3f} s (limit {LIMIT:g} s)",
     ]
     for work in result.counters:
         rows.append(
-            f"  {work.step}: {work.unknowns} unknowns, {work.simulated_time:.0f} s simulated, {work.wall_time:.3f} s wall; "
+            f"  {work.step}: {work.unknowns} unknowns, {work.simulated_time:.0f} s simulated, "
+            f"{work.wall_time:.3f} s wall; "
             f"{work.steps} steps, {work.rejected} rejected, {work.newton_failures} Newton failures, "
             f"{work.residuals} residuals, {work.jacobians} Jacobians, {work.factorisations} factorisations"
         )

@@ -6,8 +6,9 @@ import doctest
 import importlib
 import pkgutil
 
-import catenaria
 import pytest
+
+import catenaria
 
 MODULES = sorted(module.name for module in pkgutil.walk_packages(catenaria.__path__, "catenaria."))
 OPTIONS = doctest.NORMALIZE_WHITESPACE | doctest.ELLIPSIS

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+
 from catenaria.line import Line, load_line
 from catenaria.results import FormResult
 from catenaria.workflow import solve

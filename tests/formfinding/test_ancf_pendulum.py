@@ -1,8 +1,8 @@
 """A swinging ANCF cable: elements, hinge and integrator together, against the period of a rigid rod.
 
-A uniform rod of length L that swings with amplitude a has the period 4 K(sin^2(a/2)) sqrt(2 L/(3 g)), K being the complete
-elliptic integral. The cable is stiff enough (EJ = 1000 N m^2 for 1 kg and 1 m) to differ from a rigid rod by 1e-4; BDF of
-order 2 with 400 steps a period lengthens the period by about (omega h)^2/3 = 1e-4.
+A uniform rod of length L that swings with amplitude a has the period 4 K(sin^2(a/2)) sqrt(2 L/(3 g)), K being
+the complete elliptic integral. The cable is stiff enough (EJ = 1000 N m^2 for 1 kg and 1 m) to differ from a
+rigid rod by 1e-4; BDF of order 2 with 400 steps a period lengthens the period by about (omega h)^2/3 = 1e-4.
 """
 
 from __future__ import annotations
@@ -12,6 +12,8 @@ from functools import cache
 
 import numpy as np
 import pytest
+from scipy.special import ellipk
+
 from catenaria.formfinding.motion_problem import MotionProblem, Tolerances
 from catenaria.mechanics.chain import Chain, Section
 from catenaria.mechanics.elements.cable import CableElements
@@ -22,7 +24,6 @@ from catenaria.mechanics.system import System
 from catenaria.mechanics.unknowns import Kind, UnknownsBuilder
 from catenaria.solvers.bdf import integrate
 from catenaria.solvers.outcome import Options, Solution, Start
-from scipy.special import ellipk
 
 LENGTH, AMPLITUDE, G = 1.0, 0.5, 9.80665
 PERIOD = 4.0 * float(ellipk(np.sin(AMPLITUDE / 2) ** 2)) * np.sqrt(2.0 * LENGTH / (3.0 * G))

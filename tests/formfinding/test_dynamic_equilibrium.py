@@ -1,9 +1,9 @@
 """The dynamic equilibrium method on the paper's three-span line (section 5, Tables 4-5, Figs. 20-25).
 
-Reference values: dropper lengths and forces of the same line, computed by a static finite-element program, a linear
-tensioned-beam program and Exudyn 1.13.6, mesh-converged and in agreement to 0.3 mm; 15 kN is the reaction at the wire ends,
-droppers are guided, the wires run on to 0.5 m tails. Tolerances: 1 mm of length, because the dead band of 20 N of the
-messenger tension is 0.7 mm; 0.1 N of force.
+Reference values: dropper lengths and forces of the same line, computed by a static finite-element program, a
+linear tensioned-beam program and Exudyn 1.13.6, mesh-converged and in agreement to 0.3 mm; 15 kN is the
+reaction at the wire ends, droppers are guided, the wires run on to 0.5 m tails. Tolerances: 1 mm of length,
+because the dead band of 20 N of the messenger tension is 0.7 mm; 0.1 N of force.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+
 from catenaria.errors import InconsistentInputError
 from catenaria.line import Line
 from catenaria.results import FormResult
@@ -22,7 +23,9 @@ from catenaria.workflow import solve
 Solved = Callable[..., FormResult]
 Check = Callable[[FormResult], None]
 
-LENGTH = np.array([1.3790, 1.1502, 1.0129, 0.9669, 1.0122, 1.1488, 1.3768, 1.3767, 1.1483, 1.0113, 0.9657])  # m
+LENGTH = np.array(
+    [1.3790, 1.1502, 1.0129, 0.9669, 1.0122, 1.1488, 1.3768, 1.3767, 1.1483, 1.0113, 0.9657]
+)  # m
 FORCE = np.array([61.73, 86.26, 86.05, 86.05, 86.05, 86.11, 79.20, 79.20, 86.11, 86.05, 86.05])  # N
 
 
@@ -63,7 +66,7 @@ def test_three_span_line(paper: FormResult, check: Check) -> None:
 
 @pytest.mark.parametrize("check", CHECKS)
 def test_checks_notice_a_wrong_result(paper: FormResult, check: Check) -> None:
-    """Negative control: lengths 1.2 mm off and not symmetric, forces 0.2 N off, sag 2 % off, a control outside its band."""
+    """Negative control: lengths 1.2 mm and forces 0.2 N off, sag 2 % off, a control outside its band."""
     droppers = replace(
         paper.droppers,
         length=paper.droppers.length + np.linspace(1.2e-3, 2.4e-3, 21),
@@ -122,16 +125,20 @@ def test_clamp_force_balances_the_dropper(paper: FormResult, line: Line) -> None
 
 
 def unbalanced(result: FormResult, line: Line) -> float:
-    """Vertical forces of the contact wire on supports and devices against its weight and the droppers' pull [N]."""
+    """Weight of the contact wire against the vertical forces of supports, devices and droppers [N]."""
     weight = line.conductors["contact"].rhoA * line.gravity * (195.0 + 2 * line.contact_wire.tail)
     held = [name == "contact wire" for name in result.supports.wire]
     start, end = result.stages[0].multiplier[-6:].reshape(2, 3)  # forces of the wire's ends on the devices
-    return float(weight + result.supports.force_z[held].sum() + start[2] + end[2] - result.droppers.force_bottom.sum())
+    return float(
+        weight + result.supports.force_z[held].sum() + start[2] + end[2] - result.droppers.force_bottom.sum()
+    )
 
 
 def test_vertical_reactions_balance_the_weight(paper: FormResult, line: Line) -> None:
     assert abs(unbalanced(paper, line)) < 1e-4
-    heavier = replace(paper, droppers=replace(paper.droppers, force_bottom=paper.droppers.force_bottom * 1.0001))
+    heavier = replace(
+        paper, droppers=replace(paper.droppers, force_bottom=paper.droppers.force_bottom * 1.0001)
+    )
     assert abs(unbalanced(heavier, line)) > 1e-2
 
 
@@ -144,14 +151,14 @@ def test_frictionless_droppers_are_shorter(line: Line, narrow: Solved) -> None:
 
 
 def test_start_from_an_earlier_result(line: Line, paper: FormResult) -> None:
-    """Fig. 2: an interim configuration as input; from the end of a run the next one ends at once at the same form."""
+    """Fig. 2, an interim configuration as input: from the end of a run the next one stays there."""
     again = solve(line, start=paper)
     np.testing.assert_allclose(again.droppers.length, paper.droppers.length, atol=0.02e-3)
     assert sum(c.steps for c in again.counters) < 0.7 * sum(c.steps for c in paper.counters)
 
 
 def test_start_for_another_tension_and_mesh(variant: Callable[[Any], Line], narrow: Solved) -> None:
-    """From the form at 15 kN on one mesh to that at 15.5 kN on a finer one: the same as from straight wires."""
+    """From 15 kN on one mesh to 15.5 kN on a finer one: the same as from straight wires."""
     change = (("messenger_wire.tension.force", 15500.0), ("solver.mesh.refine", 2))
     continued = solve(variant(dict(change)), start=narrow(()))
     np.testing.assert_allclose(continued.droppers.length, narrow(change).droppers.length, atol=0.05e-3)
@@ -164,7 +171,12 @@ def test_start_that_does_not_fit_is_refused(variant: Callable[[Any], Line], pape
 
 def test_strain_measure_holds_the_strain_tension(line: Line, narrow: Solved) -> None:
     """`measure: strain` meets its own target at the joint, which is not the tension of the wire."""
-    by_strain = narrow((("messenger_wire.tension.measure", "strain"), ("solver.mesh.fine", ()),))
+    by_strain = narrow(
+        (
+            ("messenger_wire.tension.measure", "strain"),
+            ("solver.mesh.fine", ()),
+        )
+    )
     at_end = by_strain.supports.tension[-1]
     assert at_end == pytest.approx(15e3, abs=0.2)
     assert abs(by_strain.wires[1].reaction_end - 15e3) > 20.0

@@ -302,7 +302,17 @@ def test_elements_of_chains() -> None:
     assert batch.gauss_points == 3
 
 
-@pytest.mark.parametrize("wrong", [{"length": 0.0}, {"length": -1.0}, {"EA": 0.0}, {"EJ": -1e-9}])
+@pytest.mark.parametrize(
+    "wrong",
+    [{"length": 0.0}, {"length": -1.0}, {"EA": 0.0}, {"EJ": -1e-9}, {"EA": np.nan}, {"length": np.nan}],
+)
 def test_refuses_impossible_constants(wrong: dict[str, Any]) -> None:
     with pytest.raises(InconsistentInputError):
         one(**wrong)
+
+
+def test_refuses_arrays_of_different_lengths() -> None:
+    """The compiled loops would read beyond the shorter one."""
+    single = np.ones(1)
+    with pytest.raises(InconsistentInputError, match="12 dofs"):
+        CableElements(np.arange(24).reshape(2, 12), single, single, single, single)

@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from catenaria.errors import InconsistentInputError, InfeasibleError
 from catenaria.mechanics.chain import Chain, Section
 
 KNOTS = np.array([2.0, 2.1, 3.0, 5.4, 5.5])
@@ -118,8 +119,20 @@ def test_control_without_hysteresis_fails() -> None:
         check_hysteresis(Jumpy(CHAIN.nodes, CHAIN.knots, CHAIN.section))
 
 
-def test_relocate_over_many_elements_and_beyond_the_ends() -> None:
-    element = np.array([0, 3, 1, 2, 0])
-    s = np.array([5.45, 2.01, 9.0, 1.0, 2.05])
-    np.testing.assert_array_equal(CHAIN.relocate(s, element), [3, 0, 3, 0, 0])
-    np.testing.assert_array_equal(element, [0, 3, 1, 2, 0])
+def test_relocate_over_many_elements() -> None:
+    element = np.array([0, 3, 0])
+    s = np.array([5.45, 2.01, 2.05])
+    np.testing.assert_array_equal(CHAIN.relocate(s, element), [3, 0, 0])
+    np.testing.assert_array_equal(element, [0, 3, 0])
+
+
+@pytest.mark.parametrize("s", [9.0, 1.0, np.nan])
+def test_a_point_that_slid_off_the_end_is_refused(s: float) -> None:
+    with pytest.raises(InfeasibleError, match="slid out"):
+        CHAIN.relocate(np.array([2.05, s]), np.array([0, 0]))
+
+
+@pytest.mark.parametrize("knots", [[0.0, 1.0, 1.0], [0.0, 2.0, 1.0], [0.0, np.nan, 1.0], [0.0, 1.0]])
+def test_knots_that_do_not_ascend_are_refused(knots: list[float]) -> None:
+    with pytest.raises(InconsistentInputError, match="ascending"):
+        Chain(np.arange(18).reshape(3, 6), np.array(knots), CHAIN.section)

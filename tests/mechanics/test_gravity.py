@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from catenaria.errors import InconsistentInputError
 from catenaria.mechanics.loads.gravity import Gravity, Ramp
 from catenaria.mechanics.state import State
 
@@ -54,3 +55,9 @@ def test_load() -> None:
         f = np.zeros(7)
         Gravity(weight, 9.8, Ramp(4.0)).add_residual(State(t, z, z, z), f)
         np.testing.assert_allclose(f, -9.8 * yang(t, 4.0) * weight, rtol=1e-13, atol=1e-15)
+
+
+@pytest.mark.parametrize("duration", [-5.0, np.nan, np.inf])
+def test_impossible_ramps_are_refused(duration: float) -> None:
+    with pytest.raises(InconsistentInputError, match="duration"):
+        Ramp(duration)

@@ -180,7 +180,15 @@ def test_control_linear_law_fails() -> None:
 
 
 @pytest.mark.parametrize(
-    "wrong", [(0.0, 1.0, 2.0), (-1.0, 1.0, 2.0), (1.0, -1.0, 2.0), (1.0, 2.0, 2.0), (1.0, 3.0, 2.0)]
+    "wrong",
+    [
+        (0.0, 1.0, 2.0),
+        (-1.0, 1.0, 2.0),
+        (1.0, -1.0, 2.0),
+        (1.0, 2.0, 2.0),
+        (1.0, 3.0, 2.0),
+        (1.0, 0.0, np.inf),
+    ],
 )
 def test_refuses_impossible_laws(wrong: tuple[float, float, float]) -> None:
     with pytest.raises(InconsistentInputError):

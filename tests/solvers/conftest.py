@@ -43,9 +43,7 @@ class Pendulum(Problem):
 
     def jacobian(self, t, y, yd, ydd, c1, c2):
         x, z, la = y
-        return dense(
-            np.array([[c2 + 2 * la, 0.0, 2 * x], [0.0, c2 + 2 * la, 2 * z], [2 * x, 2 * z, 0.0]])
-        )
+        return dense(np.array([[c2 + 2 * la, 0.0, 2 * x], [0.0, c2 + 2 * la, 2 * z], [2 * x, 2 * z, 0.0]]))
 
 
 class Forced(Problem):

@@ -29,7 +29,7 @@ def test_both_kinds_of_weights_are_exact_for_polynomials_of_their_degree(steps, 
 
 @given(steps=STEPS, t=st.floats(-3.0, 3.0))
 def test_negative_control_one_degree_more_leaves_the_known_remainder(steps, t):
-    """(s - t)^(k+1) has no slope at t; the formula returns minus the product of the distances of the nodes."""
+    """(s - t)^(k+1) has no slope at t; the formula returns minus the product of the nodes' distances."""
     past = grid(steps, t)
     distance = t - np.array(past)
     _, d = derivative_weights(t, past)

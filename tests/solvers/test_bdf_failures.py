@@ -46,7 +46,7 @@ def test_constraint_that_is_given_twice(base_problem, to_sparse):
 
 
 def test_solution_that_ends(base_problem, to_sparse):
-    """y' = y^2, y(0) = 1 has a pole at t = 1."""
+    """The equation y' = y^2, y(0) = 1 has a pole at t = 1."""
 
     class Pole(base_problem):
         def residual(self, t, y, yd, ydd):

@@ -1,4 +1,4 @@
-"""Stiff systems of first order and an index-1 problem: order_of 1 and algebraic rows that are no constraints."""
+"""Stiff systems of first order and an index-1 problem with an algebraic row that is no constraint."""
 
 from __future__ import annotations
 

@@ -13,7 +13,7 @@ GRAVITY = 9.81
 
 @pytest.fixture
 def chain(base_problem, to_sparse):
-    """Point masses of 1 kg on rigid links of 1 m, hung at the origin: positions (x_i, z_i), then multipliers."""
+    """Point masses of 1 kg on rigid links of 1 m, hung at the origin: positions, then multipliers."""
 
     class Chain(base_problem):
         def __init__(self, links, error, newton):

@@ -32,7 +32,8 @@ def slopes(problem, order, h):
 
 
 @pytest.mark.parametrize(
-    ("order", "h", "cap"), [(1, 0.005, 4e-2), (2, 0.01, 1e-3), (3, 0.02, 1e-4), (4, 0.02, 4e-6), (5, 0.04, 4e-6)]
+    ("order", "h", "cap"),
+    [(1, 0.005, 4e-2), (2, 0.01, 1e-3), (3, 0.02, 1e-4), (4, 0.02, 4e-6), (5, 0.04, 4e-6)],
 )
 def test_q_qd_multiplier_and_parameter_converge_with_the_order_of_the_formula(forced, order, h, cap):
     observed, errors = slopes(forced(), order, h)
@@ -51,3 +52,37 @@ def test_negative_control_a_wrong_coefficient_loses_the_order(forced, monkeypatc
     monkeypatch.setattr(bdf, "derivative_weights", wrong)
     observed, _ = slopes(forced(), order, h)
     assert np.abs(observed - order).max() > 0.4
+
+
+def accelerations_after_a_change(problem, order, h, ratio):
+    """Return x'' of the first steps of length ratio h after a run with steps h, relative to the exact one."""
+    t = -h * np.arange(order, -1, -1)
+    y, yd, _ = problem.exact(t)
+    options = Options(max_order=order, constant_step=h)
+    before = integrate(problem, Start(t, y, yd), 40 * h, options)
+    seen = []
+
+    def watch(step):
+        seen.append(step.ydd[0] / problem.exact(step.t)[2][0])
+
+    options = Options(max_order=order, constant_step=ratio * h)
+    start = before.tail(order + 1)
+    integrate(problem, start, start.t[-1] + 4 * ratio * h, options, observers=(watch,))
+    return np.array(seen)
+
+
+@pytest.mark.parametrize("ratio", [0.5, 2.0, 4.0])
+def test_after_a_step_change_implicit_euler_reads_a_wrong_acceleration_once(forced, ratio):
+    """The first one is (1 + 1/ratio) / 2 of the true one, whatever h is; the next ones are right again."""
+    seen = accelerations_after_a_change(forced(), 1, 0.02 / ratio, ratio)
+    assert seen[0] == pytest.approx((1.0 + 1.0 / ratio) / 2.0, rel=0.05)
+    assert seen[1:] == pytest.approx(np.ones(3), rel=0.15)
+
+
+def test_after_a_step_change_order_2_loses_one_order_in_the_multipliers_for_two_steps(forced):
+    """Error of the acceleration O(h) in the two steps after the change, O(h^2) before and afterwards."""
+    errors = [np.abs(accelerations_after_a_change(forced(), 2, h, 2.0) - 1.0) for h in (2e-3, 1e-3)]
+    changed = np.log2(errors[0] / errors[1])
+    assert changed[:2] == pytest.approx([1.0, 1.0], abs=0.35)
+    unchanged = [np.abs(accelerations_after_a_change(forced(), 2, h, 1.0) - 1.0) for h in (2e-3, 1e-3)]
+    assert (errors[1][:2] > 5.0 * unchanged[1][:2]).all()

@@ -7,7 +7,7 @@ import pytest
 
 from catenaria.errors import InconsistentInputError, NotConvergedError
 from catenaria.solvers.bdf import integrate
-from catenaria.solvers.initial_values import constraint_curvature, constraint_defects, consistent_start
+from catenaria.solvers.initial_values import consistent_start, constraint_curvature, constraint_defects
 
 GRAVITY = 9.81
 
@@ -54,7 +54,7 @@ def test_rates_of_first_order_unknowns_follow_their_rows(forced, t):
 
 
 def moving_support(base_problem, to_sparse):
-    """x'' + la = 0 with the constraint x - t^2 = 0 that contains the time."""
+    """Return x'' + la = 0 with the constraint x - t^2 = 0 that contains the time."""
 
     class Moving(base_problem):
         def residual(self, t, y, yd, ydd):

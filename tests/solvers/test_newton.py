@@ -80,7 +80,7 @@ def test_damping_saves_an_iteration_that_would_diverge():
 
 
 def test_discrete_state_follows_the_iterates():
-    """f is y - 2 right of 1 and 3 y - 4 left of it; the state names the side."""
+    """Right of 1 the function is y - 2, left of it 3 y - 4; the state names the side."""
 
     class Kink(Scalar):
         def __init__(self, right):

@@ -30,8 +30,9 @@ def stretch(force: float | FloatArray, EA: float) -> FloatArray:
 
     Notes
     -----
-    With eps = (x^2 - 1)/2 of eq. (9) and the force EA eps x, the stretch x solves x^3 - x = 2 force/EA. The root near 1
-    is Viete's x = 2/sqrt(3) cos(arccos(3 sqrt(3) force/EA)/3), or its hyperbolic form beyond force/EA = 1/sqrt(27).
+    With eps = (x^2 - 1)/2 of eq. (9) and the force EA eps x, the stretch x solves x^3 - x = 2 force/EA. The
+    root near 1 is Viete's x = 2/sqrt(3) cos(arccos(3 sqrt(3) force/EA)/3), or its hyperbolic form beyond
+    force/EA = 1/sqrt(27).
 
     Examples
     --------

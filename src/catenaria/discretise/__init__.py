@@ -1,1 +1,1 @@
-"""From a line to systems, and from states back to results: the only bridge between engineering and mechanics."""
+"""From a line to systems, from states to results: the bridge between engineering and mechanics."""

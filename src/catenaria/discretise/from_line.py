@@ -29,7 +29,9 @@ def contact_wire_setup(line: Line) -> WireSetup:
     held = [support for support in line.supports if support.contact_wire is not None]
     height = held[0].contact_wire.height if held[0].contact_wire else 0.0
     x = np.array(line.support_x)[list(line.contact_support_indices)]
-    return _setup(line, line.contact_wire, "contact wire", x, height, line.solver.dynamic.contact_tension, droppers)
+    return _setup(
+        line, line.contact_wire, "contact wire", x, height, line.solver.dynamic.contact_tension, droppers
+    )
 
 
 def messenger_wire_setup(line: Line, foot_force: FloatArray, foot_height: FloatArray) -> WireSetup:
@@ -55,7 +57,15 @@ def messenger_wire_setup(line: Line, foot_force: FloatArray, foot_height: FloatA
     )
     height = line.supports[0].messenger_height
     x = np.array(line.support_x)
-    return _setup(line, line.messenger_wire, "messenger wire", x, height, line.solver.dynamic.messenger_tension, droppers)
+    return _setup(
+        line,
+        line.messenger_wire,
+        "messenger wire",
+        x,
+        height,
+        line.solver.dynamic.messenger_tension,
+        droppers,
+    )
 
 
 def section(conductor: Conductor) -> Section:
@@ -83,7 +93,13 @@ def _droppers(
 
 
 def _setup(
-    line: Line, wire: Wire, name: str, x: FloatArray, height: float, law: TensionControl, droppers: DropperSetup
+    line: Line,
+    wire: Wire,
+    name: str,
+    x: FloatArray,
+    height: float,
+    law: TensionControl,
+    droppers: DropperSetup,
 ) -> WireSetup:
     dynamic, mesh = line.solver.dynamic, line.solver.mesh
     return WireSetup(

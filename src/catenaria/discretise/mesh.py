@@ -1,12 +1,14 @@
 """Graded meshes: short elements where a wire bends, long ones between.
 
-A taut wire bends within a few lengths sqrt(EJ/T) of every support and clamp (0.14 m here) and is a string elsewhere.
+A taut wire bends within a few lengths sqrt(EJ/T) of every support and clamp (0.14 m here) and is a string
+elsewhere.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -63,22 +65,29 @@ def graded_knots(length: float, centres: Sequence[float] | FloatArray, grading: 
     array([ 0.  ,  2.35,  4.7 ,  4.9 ,  5.  ,  5.1 ,  5.3 ,  7.65, 10.  ])
     """
     middle = np.unique(np.asarray(centres, dtype=np.float64))
-    if middle.size and not (0.0 <= middle[0] and middle[-1] <= length):
+    if middle.size and not (middle[0] >= 0.0 and middle[-1] <= length):
         raise InconsistentInputError("a support or clamp lies beyond the end of its wire")
     primary = np.unique(np.concatenate(([0.0], middle, [length])))
     knots = [0.0]
-    for left, right in zip(primary[:-1], primary[1:], strict=True):
-        knots.extend(_between(left, right, np.isin(left, middle), np.isin(right, middle), grading))
+    for left, right in pairwise(primary):
+        knots.extend(
+            _between(left, right, bool(np.isin(left, middle)), bool(np.isin(right, middle)), grading)
+        )
     return np.array(knots)
 
 
-def _between(left: float, right: float, fine_left: np.bool, fine_right: np.bool, grading: Grading) -> list[float]:
-    """Return the nodes after `left` up to `right`; fine distances are kept to where half of the gap begins."""
+def _between(left: float, right: float, fine_left: bool, fine_right: bool, grading: Grading) -> list[float]:
+    """Return the nodes after `left` up to `right`; fine distances end before the middle."""
     half = 0.5 * (right - left)
     fine = [distance for distance in sorted(grading.fine) if distance < 0.95 * half]
-    nodes = [left, *(left + d for d in fine if fine_left), *(right - d for d in reversed(fine) if fine_right), right]
+    nodes = [
+        left,
+        *(left + d for d in fine if fine_left),
+        *(right - d for d in reversed(fine) if fine_right),
+        right,
+    ]
     result: list[float] = []
-    for a, b in zip(nodes[:-1], nodes[1:], strict=True):
+    for a, b in pairwise(nodes):
         count = grading.refine * max(1, int(np.ceil((b - a) / grading.largest - 1e-9)))
         result.extend(np.linspace(a, b, count + 1)[1:].tolist())
     return result

@@ -22,9 +22,10 @@ def profile(chain: Chain, z: FloatArray) -> Profile:
 
     Notes
     -----
-    Axial strain at a point of a bent element is off by what the cubic position cannot follow, 100 N beside the supports of
-    the paper's messenger; its mean over an element is not. `tension` is therefore interpolated between element means,
-    while `strain_tension` is eq. (11) at the point, as the paper draws it.
+    Axial strain at a point of a bent element is off by what the cubic position cannot follow, 100 N beside
+    the supports of the paper's messenger; its mean over an element is not. `tension` is therefore
+    interpolated between element means, while `strain_tension` is eq. (11) at the point, as the paper draws
+    it.
     """
     parts = np.arange(_SAMPLES) / _SAMPLES
     s = np.append((chain.knots[:-1, None] + chain.L[:, None] * parts).ravel(), chain.knots[-1])
@@ -49,7 +50,9 @@ def element_tension(chain: Chain, z: FloatArray) -> FloatArray:
 def stretched_length(chain: Chain, z: FloatArray, start: float, end: float) -> float:
     """Return the deformed length between two material coordinates [m]."""
     points, weights = gauss_legendre(5)
-    knots = np.unique(np.concatenate(([start], chain.knots[(chain.knots > start) & (chain.knots < end)], [end])))
+    knots = np.unique(
+        np.concatenate(([start], chain.knots[(chain.knots > start) & (chain.knots < end)], [end]))
+    )
     half = 0.5 * np.diff(knots)[:, None]
     s = (knots[:-1, None] + half * (points + 1.0)).ravel()
     size = np.linalg.norm(chain.evaluate(z, s).r1, axis=1)

@@ -1,4 +1,4 @@
-"""Start from an interim configuration, the loop of Fig. 2: an earlier result becomes the input of the next computation."""
+"""Start from an interim configuration: the loop of Fig. 2, in which a result is the next input."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _TOLERANCE = 1e-6  # m by which lengths and joints of an earlier result may diff
 
 
 def with_full_gravity(setup: WireSetup) -> WireSetup:
-    """Return the setup in which gravity acts from the start, as an interim configuration carries its weight."""
+    """Return the setup with full gravity from the start: an interim configuration carries its weight."""
     return replace(setup, gravity_ramp=Ramp(0.0))
 
 
@@ -56,7 +56,7 @@ def start_from(model: WireModel, stage: Stage) -> WireModel:
         knots = stage.s[first:last]
         if abs(knots[-1] - chain.knots[-1]) > _TOLERANCE:
             raise InconsistentInputError(
-                f"{name} is {knots[-1]:.6g} m long in the earlier result and {chain.knots[-1]:.6g} m in the line"
+                f"{name} is {knots[-1]:.6g} m long in the earlier result, {chain.knots[-1]:.6g} m in the line"
             )
         nodes = np.hstack((stage.position[first:last], stage.slope[first:last]))
         z[chain.nodes] = _interpolate(knots, nodes, np.minimum(chain.knots, knots[-1]))

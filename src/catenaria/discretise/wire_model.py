@@ -1,7 +1,8 @@
-"""One step of the paper's method as a system: a wire, its supports, one cable for each dropper, and the controls.
+"""One step of the paper's method as a system: a wire, its supports, dropper cables and controls.
 
-The contact wire with the lower dropper cables (first step) and the messenger wire with the upper ones (second step) are the
-same model with other numbers; `WireSetup` holds the numbers, `build_wire_model` makes the system of section 3.1.3.
+The contact wire with the lower dropper cables (first step) and the messenger wire with the upper ones (second
+step) are the same model with other numbers; `WireSetup` holds the numbers, `build_wire_model` makes the
+system of section 3.1.3.
 """
 
 from __future__ import annotations
@@ -31,7 +32,7 @@ IntArray = NDArray[np.int64]
 
 @dataclass(frozen=True)
 class TensionSetup:
-    """Tension control of a wire, eqs. (19)-(20): `force` [N], how and at which end it is measured, and the law."""
+    """Tension control of a wire, eqs. (19)-(20): `force` [N], how and where it is measured, the law."""
 
     force: float
     measure: str
@@ -48,8 +49,8 @@ class DropperSetup:
     x : FloatArray, shape (n,)
         Positions along the track [m].
     up : bool
-        True for the lower cables, which stand up from the contact wire and are raised; False for the upper ones,
-        which hang from the messenger and are pulled down.
+        True for the lower cables, which stand up from the contact wire and are raised; False for the upper
+        ones, which hang from the messenger and are pulled down.
     length, elements, section
         Guessed length [m], number of elements and cross-section of each cable.
     clamp_mass : float
@@ -213,7 +214,18 @@ def build_wire_model(setup: WireSetup) -> WireModel:
         Ramp(0.0),
     )
     heights = _dropper_controls(setup, travel, clamp_force, inner)
-    parts = (elements, inertia, *damping, gravity, supports, held_ends, held_droppers, clamps, tension, heights)
+    parts = (
+        elements,
+        inertia,
+        *damping,
+        gravity,
+        supports,
+        held_ends,
+        held_droppers,
+        clamps,
+        tension,
+        heights,
+    )
     return WireModel(
         setup,
         System(table, parts),
@@ -232,7 +244,7 @@ def build_wire_model(setup: WireSetup) -> WireModel:
 
 
 def _straight_wire(setup: WireSetup, unknowns: UnknownsBuilder) -> Chain:
-    """Return the wire as it is laid out: straight, horizontal, without strain, with a tail beyond each end support."""
+    """Return the wire as laid out: straight, level, without strain, a tail beyond each end support."""
     first, last = setup.support_x[0], setup.support_x[-1]
     length = last - first + 2.0 * setup.tail
     will_be_held = np.concatenate((setup.support_x, setup.droppers.x))
@@ -240,7 +252,9 @@ def _straight_wire(setup: WireSetup, unknowns: UnknownsBuilder) -> Chain:
     centres = material_coordinate(will_be_held, 0.5 * (first + last), length, strain)
     knots = graded_knots(length, centres, setup.grading)
     along = np.array([1.0, 0.0, 0.0])
-    position = np.column_stack((first - setup.tail + knots, np.zeros_like(knots), np.full_like(knots, setup.height)))
+    position = np.column_stack(
+        (first - setup.tail + knots, np.zeros_like(knots), np.full_like(knots, setup.height))
+    )
     nodes = np.array([unknowns.add_node(r, along) for r in position])
     return Chain(nodes, knots, setup.section)
 
@@ -280,7 +294,9 @@ def _loads(
     return Inertia(M), damping, Gravity(elements.weight(z.size) + point_weight, setup.g, setup.gravity_ramp)
 
 
-def _tension_measure(setup: WireSetup, supports: SlidingJoints, end_force: IntArray, outwards: FloatArray) -> Measure:
+def _tension_measure(
+    setup: WireSetup, supports: SlidingJoints, end_force: IntArray, outwards: FloatArray
+) -> Measure:
     end = slice(-1, None) if setup.tension.at_end else slice(0, 1)
     if setup.tension.measure == "strain":
         return StrainTension(supports.wire, supports.s[end], supports.element[end])
@@ -288,10 +304,10 @@ def _tension_measure(setup: WireSetup, supports: SlidingJoints, end_force: IntAr
 
 
 def _dropper_controls(setup: WireSetup, travel: IntArray, clamp_force: IntArray, inner: IntArray) -> Controls:
-    """Return the height controls (21)-(22) of lower cables, or the force controls of upper ones with e = (23).
+    """Return the height controls (21)-(22) of lower cables, or the force controls (23) of upper ones.
 
-    The forces grow with gravity, so that no upper cable has to push its end of the messenger up while that falls: a
-    cable that pushes buckles.
+    The forces grow with gravity, so that no upper cable has to push its end of the messenger up while that
+    falls: a cable that pushes buckles.
     """
     droppers = setup.droppers
     if droppers.up:

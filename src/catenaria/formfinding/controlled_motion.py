@@ -129,7 +129,8 @@ def move(
     Raises
     ------
     NotConvergedError
-        If the integrator fails or the motion is not settled at `max_time`; `partial` is the `Solution` so far.
+        If the integrator fails or the motion is not settled at `max_time`; `partial` is the `Solution` so
+        far.
     """
     begin = perf_counter()
     z = model.system.unknowns.start

@@ -1,9 +1,10 @@
 """The dynamic equilibrium method of Yang et al. 2017: three steps to the form of a catenary, section 3.2.3.
 
-First step: the contact wire alone, carried by the lower cables of the droppers, is pulled to its tension while the droppers
-lift it to the wanted heights; the forces T_cd that they need are read. Second step: the messenger wire alone is pulled to
-its tension while the upper cables of the droppers are drawn down until each carries T_cd and the dropper's weight, eq. (23).
-Third step: the length of each dropper is the difference in height of its two clamps.
+First step: the contact wire alone, carried by the lower cables of the droppers, is pulled to its tension
+while the droppers lift it to the wanted heights; the forces T_cd that they need are read. Second step: the
+messenger wire alone is pulled to its tension while the upper cables of the droppers are drawn down until each
+carries T_cd and the dropper's weight, eq. (23). Third step: the length of each dropper is the difference in
+height of its two clamps.
 """
 
 from __future__ import annotations
@@ -111,7 +112,16 @@ class DynamicEquilibrium:
             worst = names[batch + place]
             listener(
                 Progress(
-                    model.setup.name, number, _STAGES, step.t, step.h, step.number, step.order, worst, bands, elapsed
+                    model.setup.name,
+                    number,
+                    _STAGES,
+                    step.t,
+                    step.h,
+                    step.number,
+                    step.order,
+                    worst,
+                    bands,
+                    elapsed,
                 )
             )
 
@@ -160,17 +170,16 @@ def dropper_schedule(line: Line, contact: Motion, messenger: Motion) -> Droppers
     force_bottom = -contact.z[contact.model.clamp_force[:, 2]]
     force_top = messenger.z[messenger.model.clamp_force[:, 2]]
     inner_force = 0.5 * (
-        force_top
-        - kind.clamp_mass_top * line.gravity
-        + force_bottom
-        + kind.clamp_mass_bottom * line.gravity
+        force_top - kind.clamp_mass_top * line.gravity + force_bottom + kind.clamp_mass_bottom * line.gravity
     )
     unstressed = length / stretch(inner_force, line.conductors[kind.conductor].EA)
     span = np.array(line.dropper_span)
     target = np.array(line.dropper_target_height)
     return Droppers(
         span=span + 1,
-        number=np.concatenate([np.arange(1, np.count_nonzero(span == i) + 1) for i in range(len(line.spans))]),
+        number=np.concatenate(
+            [np.arange(1, np.count_nonzero(span == i) + 1) for i in range(len(line.spans))]
+        ),
         x=np.array(line.dropper_x),
         length=length,
         unstressed_length=unstressed,

@@ -44,8 +44,8 @@ class MotionProblem:
     system : System
         What moves.
     tolerances : Tolerances
-        Error control acts on positions and control parameters only; slopes follow positions, sliding coordinates and
-        multipliers are algebraic.
+        Error control acts on positions and control parameters only; slopes follow positions, sliding
+        coordinates and multipliers are algebraic.
     """
 
     system: System
@@ -57,27 +57,33 @@ class MotionProblem:
         return self.system.size
 
     @cached_property
+    def _tables(self) -> tuple[NDArray[np.int8], NDArray[np.bool_], FloatArray, FloatArray]:
+        unknowns, tolerances = self.system.unknowns, self.tolerances
+        order = 2 * unknowns.where(Kind.POSITION, Kind.SLOPE) + unknowns.where(Kind.PARAMETER)
+        constraint = unknowns.where(Kind.MULTIPLIER)
+        error_scale = np.where(unknowns.where(Kind.POSITION, Kind.PARAMETER), tolerances.position, np.inf)
+        newton_scale = np.where(constraint, tolerances.force, tolerances.correction)
+        return order.astype(np.int8), constraint, error_scale, newton_scale
+
+    @property
     def order_of(self) -> NDArray[np.int8]:
         """Highest time derivative of each unknown."""
-        unknowns = self.system.unknowns
-        order = 2 * unknowns.where(Kind.POSITION, Kind.SLOPE) + unknowns.where(Kind.PARAMETER)
-        return order.astype(np.int8)
+        return self._tables[0]
 
-    @cached_property
+    @property
     def constraint(self) -> NDArray[np.bool_]:
         """Rows that are constraints; each multiplier has the index of its constraint."""
-        return self.system.unknowns.where(Kind.MULTIPLIER)
+        return self._tables[1]
 
-    @cached_property
+    @property
     def error_scale(self) -> FloatArray:
         """Error allowed per step."""
-        controlled = self.system.unknowns.where(Kind.POSITION, Kind.PARAMETER)
-        return np.where(controlled, self.tolerances.position, np.inf)
+        return self._tables[2]
 
-    @cached_property
+    @property
     def newton_scale(self) -> FloatArray:
         """Negligible Newton corrections."""
-        return np.where(self.constraint, self.tolerances.force, self.tolerances.correction)
+        return self._tables[3]
 
     def residual(self, t: float, y: FloatArray, yd: FloatArray, ydd: FloatArray) -> FloatArray:
         """Return F(t, y, y', y'')."""

@@ -1,7 +1,8 @@
 """When a controlled motion has come to rest.
 
-The velocity law approaches its dead band like 1/t and never enters it, so two criteria are offered: every error is within
-a factor of its dead band, or what the parameters would still travel is known to be negligible.
+The velocity law approaches its dead band like 1/t and never enters it, so two criteria are offered: every
+error is within a factor of its dead band, or what the parameters would still travel is known to be
+negligible.
 """
 
 from __future__ import annotations
@@ -42,7 +43,7 @@ class Settled:
 
 
 def largest_error(controls: Sequence[Controls], t: float, z: FloatArray) -> tuple[float, int, int]:
-    """Return the largest control error in units of its dead band, the batch in which it is and its place there."""
+    """Return the largest control error in dead bands, the batch in which it is and its place there."""
     worst = (0.0, 0, 0)
     for batch, control in enumerate(controls):
         bands = np.abs(control.error(t, z)) / control.law.e0
@@ -52,7 +53,7 @@ def largest_error(controls: Sequence[Controls], t: float, z: FloatArray) -> tupl
 
 
 def remaining_travel(system: System, controls: Sequence[Controls], t: float, z: FloatArray) -> float:
-    """Return how far the farthest parameter still travels until every error is at the edge of its dead band [m].
+    """Return the largest travel of a parameter until every error is at the edge of its dead band [m].
 
     Parameters
     ----------
@@ -67,8 +68,9 @@ def remaining_travel(system: System, controls: Sequence[Controls], t: float, z: 
 
     Notes
     -----
-    Statics linearised at z give the errors' sensitivity to the parameters, de/dp = m_z dz/dp. Controls whose errors are
-    beyond their bands move, the others rest, so the travel solves (de/dp)_AA dp_A = -(e - band)_A on the moving ones.
+    Statics linearised at z give the errors' sensitivity to the parameters, de/dp = m_z dz/dp. Controls whose
+    errors are beyond their bands move, the others rest, so the travel solves (de/dp)_AA dp_A = -(e - band)_A
+    on the moving ones.
     """
     parameter = np.concatenate([control.parameter for control in controls])
     beyond = np.concatenate([control.law.beyond(control.error(t, z)) for control in controls])

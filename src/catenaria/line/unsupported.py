@@ -61,7 +61,7 @@ def _wires(line: Line) -> Iterator[tuple[Path, str]]:
 
 
 def _heights(line: Line) -> Iterator[tuple[Path, str]]:
-    """Yield supports that hold a wire higher or lower than its first support does: wires are laid out level."""
+    """Yield supports that do not hold a wire as high as its first one: wires are laid out level."""
     contact = line.supports[line.contact_support_indices[0]].contact_wire
     for i, support in enumerate(line.supports):
         if contact and support.contact_wire and support.contact_wire.height != contact.height:

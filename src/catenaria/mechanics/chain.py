@@ -1,6 +1,7 @@
 """A cable as a chain of elements with shared nodes, and what can be said about a point on it.
 
-Sharing r and r' between neighbours is the fixed joint (16) without multipliers: equal positions, equal slopes.
+Sharing r and r' between neighbours is the fixed joint (16) without multipliers: equal positions, equal
+slopes.
 """
 
 from __future__ import annotations
@@ -10,12 +11,15 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from catenaria.errors import InconsistentInputError, InfeasibleError
 from catenaria.numerics.hermite import shape, shape_1, shape_2
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 
-_OVERLAP = 1e-6  # part of an element by which a sliding point may lie beyond it before it changes over: no cycling
+_OVERLAP = (
+    1e-6  # part of an element by which a sliding point may lie beyond it before it changes over: no cycling
+)
 
 
 @dataclass(frozen=True)
@@ -47,11 +51,22 @@ class Chain:
         Material (unstressed) arc length of every node from the cable's start [m].
     section : Section
         Cross-section.
+
+    Raises
+    ------
+    InconsistentInputError
+        If there are fewer than two nodes, or the coordinates do not ascend.
     """
 
     nodes: IntArray
     knots: FloatArray
     section: Section
+
+    def __post_init__(self) -> None:
+        if self.nodes.shape != (self.knots.size, 6) or not (
+            self.knots.size > 1 and np.all(np.diff(self.knots) > 0.0)
+        ):
+            raise InconsistentInputError("a cable needs two or more nodes at ascending material coordinates")
 
     @property
     def dofs(self) -> IntArray:
@@ -59,16 +74,27 @@ class Chain:
         return np.concatenate((self.nodes[:-1], self.nodes[1:]), axis=1)
 
     @property
-    def L(self) -> FloatArray:
+    def L(self) -> FloatArray:  # noqa: N802, the symbol of the paper
         """Undeformed length of every element [m]."""
         return np.diff(self.knots)
 
     def locate(self, s: FloatArray) -> IntArray:
-        """Return the element in which each material coordinate lies; the first or last one beyond the ends."""
+        """Return the element in which each coordinate lies; the first or last one beyond the ends."""
         return np.clip(np.searchsorted(self.knots, s, side="right") - 1, 0, self.knots.size - 2)
 
     def relocate(self, s: FloatArray, element: IntArray) -> IntArray:
-        """Return the elements that fit s; a point stays in its element until it is beyond it by a small overlap."""
+        """Return the elements that fit s; a point leaves its element only beyond a small overlap.
+
+        Raises
+        ------
+        InfeasibleError
+            If a point has slid off the end of the cable.
+        """
+        if not (np.all(s >= self.knots[0]) and np.all(s <= self.knots[-1])):
+            raise InfeasibleError(
+                f"a cable of {self.knots[-1]:.6g} m has slid out of a joint, which would be at {s.min():.6g} "
+                f"to {s.max():.6g} m of it; a longer tail or another tension would keep it in"
+            )
         overlap = _OVERLAP * (self.knots[element + 1] - self.knots[element])
         stays = (s >= self.knots[element] - overlap) & (s <= self.knots[element + 1] + overlap)
         return np.where(stays, element, self.locate(s))
@@ -79,7 +105,7 @@ class Chain:
         return 2.0 * (s - self.knots[element]) / L - 1.0, L
 
     def evaluate(self, z: FloatArray, s: FloatArray, element: IntArray | None = None) -> Points:
-        """Return shape functions, position, slope and second derivative at material coordinates s, shape (n,)."""
+        """Return shape functions, r, r' and r'' at material coordinates s, shape (n,)."""
         element = self.locate(s) if element is None else element
         xi, L = self.local(s, element)
         dofs = np.concatenate((self.nodes[element], self.nodes[element + 1]), axis=1)

@@ -27,7 +27,7 @@ class Contribution(Protocol):
         ...
 
     def pattern(self) -> Pattern:
-        """Return rows and columns of the Jacobian's entries, each of shape (m,); entries may repeat and then add up."""
+        """Return rows and columns of the Jacobian's entries, shape (m,) each; repeated entries add up."""
         ...
 
     def jacobian(self, state: State, c1: float, c2: float) -> FloatArray:

@@ -19,7 +19,8 @@ class State:
     t : float
         Time [s].
     z : FloatArray, shape (n,)
-        Nodal coordinates, sliding coordinates, control parameters and multipliers, as `Unknowns` numbers them.
+        Nodal coordinates, sliding coordinates, control parameters and multipliers, as `Unknowns` numbers
+        them.
     zd, zdd : FloatArray, shape (n,)
         Their time derivatives; those of multipliers and sliding coordinates are never used.
     """

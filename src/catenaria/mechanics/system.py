@@ -1,7 +1,7 @@
 """A mechanical system: unknowns and the contributions that act on them.
 
-Static solvers and integrators see only this: residual, Jacobian, and the discrete state of sliding joints. What the parts
-are (elements, joints, loads, controls) is known to the parts alone.
+Static solvers and integrators see only this: residual, Jacobian, and the discrete state of sliding joints.
+What the parts are (elements, joints, loads, controls) is known to the parts alone.
 """
 
 from __future__ import annotations
@@ -61,7 +61,8 @@ class System:
     Raises
     ------
     InconsistentInputError
-        If something in `contributions` lacks a member of the protocol, or an equation has no entry at all.
+        If something in `contributions` lacks a member of the protocol, or, when the Jacobian is first needed,
+        an equation has no entry at all.
     """
 
     unknowns: Unknowns
@@ -89,7 +90,7 @@ class System:
         return SparsityPattern.of(rows, columns, self.size)
 
     def residual(self, state: State) -> FloatArray:
-        """Return F(t, z, z', z''), shape (n,): forces [N], moments per slope [N m], constraints [m], control laws [m/s]."""
+        """Return F(t, z, z', z''), shape (n,): forces [N, N m], constraints [m], control laws [m/s]."""
         f = np.zeros(self.size)
         for contribution in self.contributions:
             contribution.add_residual(state, f)
@@ -111,7 +112,7 @@ class System:
         return csc_matrix((data, pattern.indices, pattern.indptr), shape=(self.size, self.size))
 
     def relocate(self, z: FloatArray) -> System | None:
-        """Return the system whose sliding joints are in the elements that fit z, or None if they already are."""
+        """Return the system with its sliding joints in the elements that fit z, or None if they are."""
         parts: list[Contribution] = []
         changed = False
         for part in self.contributions:

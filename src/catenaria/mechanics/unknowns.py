@@ -1,7 +1,7 @@
-"""The unknowns of a system: one numbering for coordinates, sliding coordinates, control parameters and multipliers.
+"""The unknowns of a system in one numbering: coordinates, control parameters and multipliers.
 
-Row i of the residual belongs to unknown i: dynamic equilibrium to a coordinate, the sliding condition to a sliding
-coordinate, the control law to a control parameter and the constraint to its multiplier.
+Row i of the residual belongs to unknown i: dynamic equilibrium to a coordinate, the sliding condition to a
+sliding coordinate, the control law to a control parameter and the constraint to its multiplier.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """The result of a form-finding computation: named arrays in SI units, frozen.
 
-Every array is read-only and one-dimensional unless its comment says otherwise. Column names of tables that are
-written to files carry the unit as suffix (`length_m`, `tension_N`); attributes here do not, they are SI.
+Every array is read-only and one-dimensional unless its comment says otherwise. Column names of tables that
+are written to files carry the unit as suffix (`length_m`, `tension_N`); attributes here do not, they are SI.
 """
 
 from __future__ import annotations

@@ -11,7 +11,8 @@ from catenaria.solvers.linear import Factorisation, Scaling, factorise, index3_s
 from catenaria.solvers.outcome import NO_WORK, Counters
 from catenaria.solvers.problem import DaeProblem, FloatArray
 
-MAX_ITERATIONS = 6
+MAX_ITERATIONS = 4
+MAX_LINEARISATIONS = 4
 MAX_RESELECTIONS = 8
 D0_BAND = 0.25  # relative change of d0 that a kept factorisation survives
 SLOW = 0.3  # contraction rate above which the next step begins with a new factorisation
@@ -106,20 +107,31 @@ def correct(
 def _correct_once(
     problem: DaeProblem, equations: StepEquations, y: FloatArray, kept: Linearisation | None
 ) -> Correction:
-    """Iterate with the kept factorisation if it fits, and with a new one if that is not good enough."""
+    """Iterate with the kept factorisation if it fits, then with new ones as long as they bring progress."""
     work = NO_WORK
     if kept is not None and kept.fits(problem, equations.d0):
         result = _iterate(equations, y, kept)
         if result.failure is None:
             return result
-        work = result.work
-    work = work.plus(Counters(jacobians=1, factorisations=1))
-    try:
-        fresh = _linearise(problem, equations, y)
-    except np.linalg.LinAlgError as error:
-        return Correction(y, problem, None, work, str(error))
-    result = _iterate(equations, y, fresh)
-    return replace(result, work=work.plus(result.work))
+        work, y = result.work, result.y if _was_contracting(result) else y
+    result = Correction(y, problem, None, work)
+    for _ in range(MAX_LINEARISATIONS):
+        work = work.plus(Counters(jacobians=1, factorisations=1))
+        try:
+            fresh = _linearise(problem, equations, y)
+        except np.linalg.LinAlgError as error:
+            return Correction(y, problem, None, work, str(error))
+        result = _iterate(equations, y, fresh)
+        work = work.plus(result.work)
+        if result.failure is None or not _was_contracting(result):
+            break
+        y = result.y
+    return replace(result, work=work)
+
+
+def _was_contracting(result: Correction) -> bool:
+    """Say whether the last iterate of an unfinished iteration is better than the first one."""
+    return result.linearisation is not None and 0.0 < result.linearisation.rate < 1.0
 
 
 def _linearise(problem: DaeProblem, equations: StepEquations, y: FloatArray) -> Linearisation:
@@ -161,10 +173,10 @@ def _iterate(equations: StepEquations, y: FloatArray, linearisation: Linearisati
     for iteration in range(1, MAX_ITERATIONS + 1):
         residual = problem.residual(equations.t, y, *equations.rates(y))
         correction = solve(residual) * -damping
-        y = y + correction
         if not np.isfinite(correction).all():
             failure = "the residual or a Newton correction is not finite"
             break
+        y = y + correction
         previous, size = size, float(np.abs(correction / linearisation.negligible).max())
         if iteration > 1:
             observed = max(observed, size / previous)

@@ -100,11 +100,11 @@ def after_acceptance(errors: dict[int, float], order: int, held: Held) -> Choice
         through zero twice a period: a step that follows it up is soon rejected, and each change costs a
         factorisation.
     """
-    ratios = {candidate: step_ratio(error, candidate) for candidate, error in errors.items()}
-    best = max(ratios, key=lambda candidate: ratios[candidate])
+    ratios = {k: min(step_ratio(error, k), GROWTH_LIMIT) for k, error in errors.items()}
+    best = max(ratios, key=lambda k: ratios[k])
     if ratios[best] < ORDER_GAIN * ratios[order]:
         best = order
-    ratio = min(max(ratios[best], SHRINK_LIMIT), GROWTH_LIMIT)
+    ratio = max(ratios[best], SHRINK_LIMIT)
     if KEEP_BAND[0] <= ratio < GROWTH_LIMIT:
         if held.steps <= order:
             return Choice(order, 1.0)

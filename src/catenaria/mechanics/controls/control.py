@@ -1,8 +1,9 @@
 """A control is a parameter, a measure and a target: eqs. (19)-(23) as one concept.
 
-The parameter p is a length that somebody changes: how far a wire end is pulled outwards, how far the top of a dropper is
-raised, how far the lower end of an upper dropper cable is pulled down. It is always counted so that more of it makes the
-measured quantity m larger. The error is e = m - m*, and p follows the velocity law, p' = v(e).
+The parameter p is a length that somebody changes: how far a wire end is pulled outwards, how far the top of a
+dropper is raised, how far the lower end of an upper dropper cable is pulled down. It is always counted so
+that more of it makes the measured quantity m larger. The error is e = m - m*, and p follows the velocity law,
+p' = v(e).
 """
 
 from __future__ import annotations
@@ -60,7 +61,8 @@ class Controls:
     velocity_ramp : Ramp
         Brings the velocity in, because the wire rests at t = 0.
     target_ramp : Ramp
-        Brings the target in; for a force that balances weight it is the ramp of gravity, so that e = 0 at the start.
+        Brings the target in; for a force that balances weight it is the ramp of gravity, so that e = 0 at the
+        start.
     """
 
     parameter: IntArray
@@ -83,7 +85,9 @@ class Controls:
         """Return the entries of p' and of the measures' gradients."""
         columns = self.measure.columns()
         rows = np.repeat(self.parameter[:, None], columns.shape[1], axis=1)
-        return np.concatenate((self.parameter, rows.ravel())), np.concatenate((self.parameter, columns.ravel()))
+        return np.concatenate((self.parameter, rows.ravel())), np.concatenate(
+            (self.parameter, columns.ravel())
+        )
 
     def jacobian(self, state: State, c1: float, c2: float) -> FloatArray:
         """Return c1 for p' and -v'(e) dm/dz."""

@@ -68,8 +68,8 @@ class StrainTension:
 
     Notes
     -----
-    One point of one element: where the wire bends within sqrt(EJ/T) and the mesh does not resolve it, the value is off
-    by hundreds of newtons. `ReactionTension` is right on any mesh.
+    One point of one element: where the wire bends within sqrt(EJ/T) and the mesh does not resolve it, the
+    value is off by hundreds of newtons. `ReactionTension` is right on any mesh.
     """
 
     wire: Chain
@@ -130,7 +130,7 @@ class Height:
 
 @dataclass(frozen=True)
 class DropperForce:
-    """T_md - G of eq. (23): what an upper dropper cable can carry besides the weight of the dropper that will hang there.
+    """T_md - G of eq. (23): what an upper cable carries besides the dropper that will hang there.
 
     Parameters
     ----------
@@ -149,7 +149,8 @@ class DropperForce:
 
     Notes
     -----
-    The weight G = g (rhoA (z_md - z_cd) + mass) varies with the height between the two points, as in the paper.
+    The weight G = g (rhoA (z_md - z_cd) + mass) varies with the height between the two points, as in the
+    paper.
     """
 
     force: IntArray

@@ -29,11 +29,12 @@ class VelocityLaw:
     Raises
     ------
     InconsistentInputError
-        Unless 0 <= e0 < e1 and v_s > 0.
+        Unless 0 <= e0 < e1 and v_s > 0, all finite.
 
     Notes
     -----
-    The last branches of (19) and (21) are printed with ">= -T1" and ">= -h1"; they must read "<=": the law is odd.
+    The last branches of (19) and (21) are printed with ">= -T1" and ">= -h1"; they must read "<=": the law is
+    odd.
 
     Examples
     --------
@@ -47,8 +48,8 @@ class VelocityLaw:
     e1: float
 
     def __post_init__(self) -> None:
-        if not (0.0 <= self.e0 < self.e1 and self.v_s > 0.0):
-            raise InconsistentInputError(f"a velocity law needs 0 <= e0 < e1 and v_s > 0, not {self}")
+        if not (0.0 <= self.e0 < self.e1 < np.inf and 0.0 < self.v_s < np.inf):
+            raise InconsistentInputError(f"a velocity law needs finite 0 <= e0 < e1 and v_s > 0, not {self}")
 
     def velocity(self, e: FloatArray) -> FloatArray:
         """Return v(e) [m/s]."""

@@ -23,30 +23,32 @@ IntArray = NDArray[np.int64]
 
 @dataclass(frozen=True)
 class CableElements:
-    """Elastic forces of a batch of cable elements; each has its own length and stiffness.
+    r"""Elastic forces of a batch of cable elements; each has its own length and stiffness.
 
     Parameters
     ----------
     dofs : IntArray, shape (n, 12)
         Indices of r_i, r_i', r_j, r_j'.
     L, EA, EJ, rhoA : FloatArray, shape (n,)
-        Undeformed length [m], axial stiffness [N], bending stiffness [N m^2], mass per unstressed length [kg/m].
+        Undeformed length [m], axial stiffness [N], bending stiffness [N m^2], mass per unstressed length
+        [kg/m].
     gauss_points : int
         Quadrature points; 5 integrate the axial term of (8) exactly. Below 3 the element has spurious modes.
 
     Raises
     ------
     InconsistentInputError
-        If a length, an axial stiffness or a mass is not positive or there are fewer than 3 points.
+        If shapes differ, a length, an axial stiffness or a mass is not positive, or there are fewer than 3
+        points.
 
     Notes
     -----
     Strain energy (8) with Green strain (9) and curvature (10):
 
-    .. math:: U = \\frac12\\int_0^L \\left(EA\\,\\varepsilon^2 + EJ\\,\\kappa^2\\right) dl,\\qquad
-              \\varepsilon = \\frac12(r'\\cdot r' - 1),\\qquad \\kappa = \\frac{|r'\\times r''|}{|r'|^3}.
+    .. math:: U = \frac12\int_0^L \left(EA\,\varepsilon^2 + EJ\,\kappa^2\right) dl,\qquad
+              \varepsilon = \frac12(r'\cdot r' - 1),\qquad \kappa = \frac{|r'\times r''|}{|r'|^3}.
 
-    The residual is :math:`\\partial U/\\partial q`, the Jacobian its exact derivative.
+    The residual is :math:`\partial U/\partial q`, the Jacobian its exact derivative.
 
     References
     ----------
@@ -63,7 +65,13 @@ class CableElements:
     def __post_init__(self) -> None:
         if self.gauss_points < 3:
             raise InconsistentInputError("a cable element needs at least 3 Gauss points")
-        if min(self.L.min(), self.EA.min(), self.rhoA.min()) <= 0.0 or self.EJ.min() < 0.0:
+        count = self.dofs.shape[0]
+        if self.dofs.shape != (count, 12) or any(
+            values.shape != (count,) for values in (self.L, self.EA, self.EJ, self.rhoA)
+        ):
+            raise InconsistentInputError("cable elements need 12 dofs and one L, EA, EJ and rhoA each")
+        positive = np.min((self.L, self.EA, self.rhoA))
+        if not (positive > 0.0 and self.EJ.min() >= 0.0):  # also refuses NaN
             raise InconsistentInputError("cable elements need positive L, EA and rhoA, and EJ of at least 0")
 
     @classmethod
@@ -109,11 +117,11 @@ class CableElements:
         return cable_energies(z, self.dofs, self.L, self.EA, self.EJ, *self._quadrature)
 
     def mass(self) -> FloatArray:
-        """Return the consistent mass matrices (14) [kg, kg m, kg m^2], shape (n, 12, 12).
+        r"""Return the consistent mass matrices (14) [kg, kg m, kg m^2], shape (n, 12, 12).
 
         Notes
         -----
-        .. math:: M = \\rho A \\int_0^L S^T S\\, dl, integrated exactly with 4 points (degree 6).
+        .. math:: M = \rho A \int_0^L S^T S\, dl, integrated exactly with 4 points (degree 6).
         """
         points, weights = gauss_legendre(4)
         N = np.stack([shape(points, np.full(points.size, L)) for L in self.L])
@@ -121,13 +129,16 @@ class CableElements:
         return np.einsum("ekm,ij->ekimj", m, np.eye(3)).reshape(-1, 12, 12)
 
     def weight(self, size: int) -> FloatArray:
-        """Return the generalised force of gravity per unit of g, direction -z, shape (size,); eq. (17).
+        r"""Return the generalised force of gravity per unit of g, direction -z, shape (size,); eq. (17).
 
         Notes
         -----
-        .. math:: \\rho A \\int_0^L S^T n\\, dl = \\rho A L\\,[\\tfrac12, \\tfrac{L}{12}, \\tfrac12, -\\tfrac{L}{12}] \\otimes n.
+        .. math:: \rho A \int_0^L S^T n\, dl
+                  = \rho A L\,[\tfrac12, \tfrac{L}{12}, \tfrac12, -\tfrac{L}{12}] \otimes n.
         """
-        share = np.stack([np.full_like(self.L, 0.5), self.L / 12, np.full_like(self.L, 0.5), -self.L / 12], axis=1)
+        share = np.stack(
+            [np.full_like(self.L, 0.5), self.L / 12, np.full_like(self.L, 0.5), -self.L / 12], axis=1
+        )
         force = np.zeros(size)
         np.add.at(force, self.dofs[:, 2::3], -(self.rhoA * self.L)[:, None] * share)
         return force

@@ -26,16 +26,17 @@ def normals(tangent: FloatArray) -> FloatArray:
     length = np.linalg.norm(tangent, axis=1, keepdims=True)
     if np.any(length == 0.0):
         raise InconsistentInputError("a fixed joint needs nodes with non-zero slopes")
-    tangent = tangent / length
+    tangent = np.asarray(tangent / length, dtype=np.float64)
     helper = np.eye(3)[np.argmin(np.abs(tangent), axis=1)]
-    first = np.cross(tangent, helper)
+    first: FloatArray = np.cross(tangent, helper)
     first /= np.linalg.norm(first, axis=1, keepdims=True)
-    return np.stack((first, np.cross(tangent, first)), axis=1)
+    second: FloatArray = np.cross(tangent, first)
+    return np.stack((first, second), axis=1)
 
 
 @dataclass(frozen=True)
 class FixedJoints:
-    """Joints between nodes i and j that keep r_i = r_j and r_i' parallel to r_j'.
+    r"""Joints between nodes i and j that keep r_i = r_j and r_i' parallel to r_j'.
 
     Parameters
     ----------
@@ -48,13 +49,14 @@ class FixedJoints:
 
     Notes
     -----
-    The paper's last row, r_i' . r_j' - |r_i'| |r_j'| = 0, has a zero gradient wherever it holds, so it fixes nothing when
-    linearised. We use the two independent components of r_i' x r_j' = 0,
+    The paper's last row, r_i' . r_j' - |r_i'| |r_j'| = 0, has a zero gradient wherever it holds, so it fixes
+    nothing when linearised. We use the two independent components of r_i' x r_j' = 0,
 
-    .. math:: e_k \\cdot (r_i' \\times r_j') = 0,\\qquad k = 1, 2,
+    .. math:: e_k \cdot (r_i' \times r_j') = 0,\qquad k = 1, 2,
 
-    which are independent unless the joint turns by a right angle from its start. Slopes may differ in length (a
-    jump of the axial strain is allowed), as in the paper.
+    which are independent unless the joint turns by a right angle from its start. Slopes may differ in length
+    (a jump of the axial strain is allowed), as in the paper. Opposite slopes are parallel too: start with
+    nodes that agree.
     """
 
     nodes_i: IntArray

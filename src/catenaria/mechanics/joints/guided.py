@@ -1,8 +1,8 @@
-"""The guided dropper joint: the clamp stays where it is along the track, and its force has no component along the track.
+"""The guided dropper joint: the clamp keeps its place along the track, its force is normal to it.
 
-This is what is built in the end: a dropper that hangs in its plane x = X, clamped to whichever point of the wire is there.
-The paper's "immovably placed along the track" describes it; the frictionless joint (15) would let the dropper hang
-normal to the wire instead.
+This is what is built in the end: a dropper that hangs in its plane x = X, clamped to whichever point of the
+wire is there. The paper's "immovably placed along the track" describes it; the frictionless joint (15) would
+let the dropper hang normal to the wire instead.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ IntArray = NDArray[np.int64]
 
 @dataclass(frozen=True)
 class GuidedJoints:
-    """Joints of one wire with dropper ends that are held along the track.
+    r"""Joints of one wire with dropper ends that are held along the track.
 
     Parameters
     ----------
@@ -31,8 +31,8 @@ class GuidedJoints:
     s : IntArray, shape (n,)
         Indices of the sliding coordinates [m].
     multipliers : IntArray, shape (n, 3)
-        Indices of (la_x, la_y, la_z) [N]: the force of the guide on the track from the dropper's end, and the force of the
-        wire on the dropper in y and z.
+        Indices of (la_x, la_y, la_z) [N]: the force of the guide on the track from the dropper's end, and the
+        force of the wire on the dropper in y and z.
     element : IntArray, shape (n,)
         Element of the wire in which each joint is: discrete state, changed by `relocate` only.
     x : FloatArray, shape (n,)
@@ -42,11 +42,11 @@ class GuidedJoints:
 
     Notes
     -----
-    .. math:: x(s) = X,\\qquad x_d = X,\\qquad y(s) = y_d,\\qquad z(s) = z_d.
+    .. math:: x(s) = X,\qquad x_d = X,\qquad y(s) = y_d,\qquad z(s) = z_d.
 
-    The first equation belongs to s and exerts no force on the wire; the second holds the dropper by la_x; the others
-    tie wire and dropper by la_y, la_z. The force on the wire has no component along the track, so its tension may jump
-    by la_z times its slope, as under a real clamp. The Jacobian is not symmetric.
+    The first equation belongs to s and exerts no force on the wire; the second holds the dropper by la_x; the
+    others tie wire and dropper by la_y, la_z. The force on the wire has no component along the track, so its
+    tension may jump by la_z times its slope, as under a real clamp. The Jacobian is not symmetric.
     """
 
     wire: Chain
@@ -65,7 +65,7 @@ class GuidedJoints:
         f[self.multipliers[:, 0]] += end[:, 0] - self.x
         f[self.multipliers[:, 1:]] += point.r[:, 1:] - end[:, 1:]
         np.add.at(f, point.dofs[:, :, 1:], point.N[:, :, None] * la[:, None, 1:])
-        f[self.nodes] += la * _ON_DROPPER
+        np.add.at(f, self.nodes, la * _ON_DROPPER)
 
     def pattern(self) -> Pattern:
         """Return the entries of the constraints' and forces' derivatives."""
@@ -77,7 +77,9 @@ class GuidedJoints:
         s42 = np.repeat(s4[:, :, None], 2, axis=2)
         rows = (s4, self.s, la_yz, self.multipliers[:, 1:], yz_dofs, yz_dofs, self.multipliers, self.nodes)
         columns = (x_dofs, self.s, yz_dofs, s2, la_yz, s42, self.nodes, self.multipliers)
-        return np.concatenate([part.ravel() for part in rows]), np.concatenate([part.ravel() for part in columns])
+        return np.concatenate([part.ravel() for part in rows]), np.concatenate(
+            [part.ravel() for part in columns]
+        )
 
     def jacobian(self, state: State, c1: float, c2: float) -> FloatArray:
         """Return N, r', N' la and the droppers' signs at those entries."""
@@ -101,4 +103,6 @@ class GuidedJoints:
         return None if np.array_equal(element, self.element) else replace(self, element=element)
 
 
-_ON_DROPPER = np.array([1.0, -1.0, -1.0])  # the guide holds the dropper's end by la_x, the wire pulls by la_y, la_z
+_ON_DROPPER = np.array(
+    [1.0, -1.0, -1.0]
+)  # the guide holds the dropper's end by la_x, the wire pulls by la_y, la_z

@@ -1,4 +1,4 @@
-"""Nodes held at points in space, which may be moved by a control parameter: hinges, and the driven ends of (20), (22)."""
+"""Nodes held at points that a control parameter may move: hinges, and driven ends, (20), (22)."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ IntArray = NDArray[np.int64]
 
 @dataclass(frozen=True)
 class HeldPoints:
-    """Spherical joints between nodes and points X + p n of space (section 4.2 of the paper, and its wire ends).
+    """Spherical joints between nodes and points X + p n of space (section 4.2, and the paper's wire ends).
 
     Parameters
     ----------
@@ -33,8 +33,8 @@ class HeldPoints:
 
     Notes
     -----
-    C = r - X - p n = 0. Its time derivative is the paper's nonholonomic constraint (20), r' = v_c n with p' = v_c; at
-    position level it cannot drift.
+    C = r - X - p n = 0. Its time derivative is the paper's nonholonomic constraint (20), r' = v_c n with p' =
+    v_c; at position level it cannot drift.
     """
 
     nodes: IntArray
@@ -48,7 +48,7 @@ class HeldPoints:
         z = state.z
         p = np.where(self.parameter >= 0, z[self.parameter], 0.0)
         f[self.multipliers] += z[self.nodes] - self.X - p[:, None] * self.direction
-        f[self.nodes] += z[self.multipliers]
+        np.add.at(f, self.nodes, z[self.multipliers])
 
     def _driven(self) -> NDArray[np.bool_]:
         return self.parameter >= 0
@@ -58,7 +58,9 @@ class HeldPoints:
         driven = self._driven()
         rows = (self.multipliers, self.nodes, self.multipliers[driven])
         columns = (self.nodes, self.multipliers, np.repeat(self.parameter[driven][:, None], 3, axis=1))
-        return np.concatenate([part.ravel() for part in rows]), np.concatenate([part.ravel() for part in columns])
+        return np.concatenate([part.ravel() for part in rows]), np.concatenate(
+            [part.ravel() for part in columns]
+        )
 
     def jacobian(self, state: State, c1: float, c2: float) -> FloatArray:
         """Return C_q = 1, its transpose, and C_p = -n."""

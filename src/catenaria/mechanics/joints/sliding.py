@@ -1,4 +1,4 @@
-"""The sliding joint (15): a wire runs without friction through a point of space or through a node of a dropper."""
+"""The sliding joint (15): a wire runs without friction through a point of space or a node."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ IntArray = NDArray[np.int64]
 
 @dataclass(frozen=True)
 class SlidingJoints:
-    """Frictionless joints of one wire with points or nodes; the sliding coordinate s is an unknown.
+    r"""Frictionless joints of one wire with points or nodes; the sliding coordinate s is an unknown.
 
     Parameters
     ----------
@@ -36,12 +36,14 @@ class SlidingJoints:
 
     Notes
     -----
-    .. math:: C = r(s) - r_j = 0,\\qquad C_s^T\\lambda = \\lambda\\cdot r'(s) = 0.
+    .. math:: C = r(s) - r_j = 0,\qquad C_s^T\lambda = \lambda\cdot r'(s) = 0.
 
     The second line says that the force has no component along the wire: three constraints and one more
-    unknown take away two degrees of freedom, as the paper says. Within a solve each joint stays in its element,
-    whose polynomial is continued beyond the element's ends if need be; when the solve has converged, `relocate`
-    changes elements and the solve goes on. Wires share r and r' between elements, so r(s) and r'(s) are continuous.
+    unknown take away two degrees of freedom, as the paper says. Within a solve each joint stays in its
+    element, whose polynomial is continued beyond the element's ends if need be; when the solve has converged,
+    `relocate` changes elements and the solve goes on: right for time steps, in which a joint moves by less
+    than a few elements; a solver that moves it far must relocate after every iteration. Wires share r and r'
+    between elements, so r(s) and r'(s) are continuous.
     """
 
     wire: Chain
@@ -60,7 +62,7 @@ class SlidingJoints:
         f[self.s] += np.einsum("ni,ni->n", la, point.r1)
         np.add.at(f, point.dofs, point.N[:, :, None] * la[:, None, :])
         if self.nodes is not None:
-            f[self.nodes] -= la
+            np.subtract.at(f, self.nodes, la)
 
     def _wire_dofs(self) -> IntArray:
         return np.concatenate((self.wire.nodes[self.element], self.wire.nodes[self.element + 1]), axis=1)
@@ -74,7 +76,9 @@ class SlidingJoints:
         if self.nodes is not None:
             rows += [self.multipliers, self.nodes]
             columns += [self.nodes, self.multipliers]
-        return np.concatenate([part.ravel() for part in rows]), np.concatenate([part.ravel() for part in columns])
+        return np.concatenate([part.ravel() for part in rows]), np.concatenate(
+            [part.ravel() for part in columns]
+        )
 
     def jacobian(self, state: State, c1: float, c2: float) -> FloatArray:
         """Return N, r', N' la and la . r'' at those entries."""
@@ -89,6 +93,6 @@ class SlidingJoints:
         return np.concatenate(parts)
 
     def relocate(self, z: FloatArray) -> SlidingJoints | None:
-        """Return the joints in the elements that fit z, or None if all are."""
+        """Return the joints in the elements that fit z, or None if all are (see `Chain.relocate`)."""
         element = self.wire.relocate(z[self.s], self.element)
         return None if np.array_equal(element, self.element) else replace(self, element=element)

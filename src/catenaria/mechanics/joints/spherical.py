@@ -41,7 +41,9 @@ class SphericalJoints:
         """Return the entries of C_q and C_q^T."""
         rows = (self.multipliers, self.multipliers, self.nodes_i, self.nodes_j)
         columns = (self.nodes_i, self.nodes_j, self.multipliers, self.multipliers)
-        return np.concatenate([part.ravel() for part in rows]), np.concatenate([part.ravel() for part in columns])
+        return np.concatenate([part.ravel() for part in rows]), np.concatenate(
+            [part.ravel() for part in columns]
+        )
 
     def jacobian(self, state: State, c1: float, c2: float) -> FloatArray:
         """Return the constant entries 1 and -1."""

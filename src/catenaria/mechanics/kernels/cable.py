@@ -5,11 +5,13 @@ Axial strain (9): eps = (a - 1)/2. Curvature (10) squared, by Lagrange's identit
 
     kappa^2 = |r1 x r2|^2 / |r1|^6 = (a b - c^2)/a^3 =: phi(a, b, c),
 
-which is smooth where kappa itself has a kink (kappa = 0). The energy density is (EA eps^2 + EJ phi)/2; its derivatives by
-r1 and r2 follow from those of phi, and the chain rule with r1 = sum N'_k q_k, r2 = sum N''_k q_k gives forces and stiffness.
+which is smooth where kappa itself has a kink (kappa = 0). The energy density is (EA eps^2 + EJ phi)/2; its
+derivatives by r1 and r2 follow from those of phi, and the chain rule with r1 = sum N'_k q_k, r2 = sum N''_k
+q_k gives forces and stiffness.
 
-Elements come in batches: `dofs` (n, 12) are indices into z in the order r_i, r_i', r_j, r_j'; `L`, `EA`, `EJ` are (n,).
-`B1`, `B2` (n_points, 4) hold N' and N'' of an element of unit length, `w` (n_points,) the weights on [-1, 1].
+Elements come in batches: `dofs` (n, 12) are indices into z in the order r_i, r_i', r_j, r_j'; `L`, `EA`, `EJ`
+are (n,). `B1`, `B2` (n_points, 4) hold N' and N'' of an element of unit length, `w` (n_points,) the weights
+on [-1, 1].
 """
 
 from __future__ import annotations
@@ -27,7 +29,7 @@ IntArray = NDArray[np.int64]
 def _slopes(
     z: FloatArray, dof: IntArray, L: float, B1: FloatArray, B2: FloatArray, r1: FloatArray, r2: FloatArray
 ) -> None:
-    """Write r' and r'' at one point: columns 0, 2 of B1 scale with 1/L, those of B2 with 1/L^2 (1, 3: one power less)."""
+    """Write r' and r'': columns 0, 2 of B1 scale with 1/L, of B2 with 1/L^2; 1, 3 with L times that."""
     for i in range(3):
         p_i, m_i, p_j, m_j = z[dof[i]], z[dof[3 + i]], z[dof[6 + i]], z[dof[9 + i]]
         r1[i] = (B1[0] * p_i + B1[2] * p_j) / L + B1[1] * m_i + B1[3] * m_j
@@ -74,7 +76,7 @@ def add_cable_forces(
 
 
 @compiled
-def cable_stiffness(
+def cable_stiffness(  # noqa: C901, nine loops are one formula
     z: FloatArray,
     dofs: IntArray,
     L: FloatArray,
@@ -103,7 +105,9 @@ def cable_stiffness(
             for i in range(3):
                 for j in range(3):
                     x11, x22, x12, x21 = r1[i] * r1[j], r2[i] * r2[j], r1[i] * r2[j], r2[i] * r1[j]
-                    H11[i, j] = axial * x11 + half * (4.0 * phi_aa * x11 + 2.0 * phi_ac * (x12 + x21) + phi_cc * x22)
+                    H11[i, j] = axial * x11 + half * (
+                        4.0 * phi_aa * x11 + 2.0 * phi_ac * (x12 + x21) + phi_cc * x22
+                    )
                     H12[i, j] = half * (4.0 * phi_ab * x12 + 2.0 * phi_ac * x11 + phi_cc * x21)
                     H22[i, j] = half * phi_cc * x11
                 H11[i, i] += diagonal_11

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from catenaria.errors import InconsistentInputError
 from catenaria.mechanics.contribution import Pattern
 from catenaria.mechanics.state import State
 from catenaria.numerics.smoothstep import smoothstep
@@ -22,9 +23,20 @@ class Ramp:
     ----------
     duration : float
         t1 [s]; 0 means that the factor is 1 from the start.
+
+    Raises
+    ------
+    InconsistentInputError
+        If the duration is negative or not finite.
     """
 
     duration: float
+
+    def __post_init__(self) -> None:
+        if not 0.0 <= self.duration < np.inf:
+            raise InconsistentInputError(
+                f"a ramp needs a finite duration of at least 0 s, not {self.duration}"
+            )
 
     def __call__(self, t: float) -> float:
         """Return the factor at time t."""

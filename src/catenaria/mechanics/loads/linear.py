@@ -1,4 +1,4 @@
-"""Forces that are linear in acceleration or velocity: inertia M q'' and Rayleigh damping (alpha M + beta K_0) q'."""
+"""Forces linear in acceleration or velocity: inertia M q'', damping (alpha M + beta K_0) q'."""
 
 from __future__ import annotations
 
@@ -83,9 +83,9 @@ class RayleighDamping:
 
     Notes
     -----
-    K_0 is the stiffness of the starting configuration, so D is constant: proportional damping as in linear structural
-    dynamics. Translations meet no resistance from the stiffness term, large rotations do; a catenary has none.
-    The paper mentions no damping; the default of a line is therefore none.
+    K_0 is the stiffness of the starting configuration, so D is constant: proportional damping as in linear
+    structural dynamics. Translations meet no resistance from the stiffness term, large rotations do; a
+    catenary has none. The paper mentions no damping; the default of a line is therefore none.
     """
 
     D: csr_array
