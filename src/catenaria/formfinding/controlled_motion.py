@@ -21,6 +21,8 @@ from catenaria.solvers.outcome import Options, Solution, Start, Status, Step
 FloatArray = NDArray[np.float64]
 Observer = Callable[[Step], None]
 
+_NEGLIGIBLE = 0.05  # part of a dead band that a Newton correction may leave undone
+_LARGEST_FORCE = 1e-2  # N: forces are wanted to a tenth of a newton even with wide bands
 _CHECK_EVERY = 10  # accepted steps between two looks at the remaining travel, which costs a factorisation
 
 
@@ -81,6 +83,28 @@ class Motion:
     def controls(self) -> tuple[Controls, Controls]:
         """The tension control and the dropper controls in their final discrete state."""
         return self.model.controls(self.system)
+
+
+def tolerances(model: WireModel, position: float) -> Tolerances:
+    """Return tolerances at which Newton's method leaves no control in doubt about its dead band.
+
+    Parameters
+    ----------
+    model : WireModel
+        What moves.
+    position : float
+        Error of positions in one time step [m].
+
+    Notes
+    -----
+    A wire or cable of length L turns a correction of d metres into EA d/L newtons, so corrections must be far smaller
+    than positions are wanted: 0.02 N is 25 nm of a dropper.
+    """
+    tension, droppers = (control.law.e0 for control in model.controls(model.system))
+    bands = (tension,) if model.setup.droppers.up else (tension, droppers)
+    force = min(_LARGEST_FORCE, _NEGLIGIBLE * min(bands))
+    compliance = min(chain.knots[-1] / chain.section.EA for chain in (model.wire, *model.cables))
+    return Tolerances(position, force * float(compliance), force)
 
 
 class _Rest:

@@ -23,8 +23,7 @@ from catenaria.discretise.read_back import stage, support_strain_tension, wire_f
 from catenaria.discretise.restart import start_from, with_full_gravity
 from catenaria.discretise.wire_model import WireModel, WireSetup, build_wire_model
 from catenaria.errors import InconsistentInputError
-from catenaria.formfinding.controlled_motion import Motion, move, system_of
-from catenaria.formfinding.motion_problem import Tolerances
+from catenaria.formfinding.controlled_motion import Motion, move, system_of, tolerances
 from catenaria.formfinding.progress import Listener, Progress
 from catenaria.formfinding.settling import Settled, largest_error
 from catenaria.formfinding.versions import versions
@@ -35,8 +34,6 @@ from catenaria.solvers.outcome import Options, Step
 FloatArray = NDArray[np.float64]
 
 _STAGES = 3
-_CORRECTION = 1e-6  # m: a Newton correction that changes nothing anybody could measure
-_FORCE = 1e-2  # N: the same for forces
 
 
 @dataclass(frozen=True)
@@ -92,7 +89,7 @@ class DynamicEquilibrium:
         options = line.solver.dynamic
         return move(
             model,
-            Tolerances(options.integrator.position_tolerance, _CORRECTION, _FORCE),
+            tolerances(model, options.integrator.position_tolerance),
             Options(max_order=options.integrator.max_order, max_steps=options.integrator.max_steps),
             Settled(options.settle.velocity, options.settle.dead_bands, options.settle.remaining_travel),
             options.integrator.max_time,

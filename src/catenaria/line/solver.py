@@ -75,9 +75,7 @@ class Integrator(LineModel):
     position_tolerance: PositiveLength = Field(
         default=1e-3, description="Allowed local error of positions in one step."
     )
-    max_time: PositiveTime = Field(
-        default=20_000.0, description="Simulated time after which the run is given up."
-    )
+    max_time: PositiveTime = Field(default=1e6, description="Simulated time after which the run is given up.")
     max_steps: Count = Field(default=20_000, description="Number of steps after which the run is given up.")
 
 
