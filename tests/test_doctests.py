@@ -28,7 +28,7 @@ def test_examples_of_module(name: str) -> None:
 
 def test_there_are_examples() -> None:
     attempted = sum(failures(importlib.import_module(name))[1] for name in MODULES)
-    assert attempted > 50
+    assert attempted > 35
 
 
 def test_a_wrong_example_fails(capsys: pytest.CaptureFixture[str]) -> None:

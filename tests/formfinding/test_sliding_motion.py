@@ -8,7 +8,8 @@ import pytest
 from catenaria.discretise.mesh import Grading
 from catenaria.discretise.read_back import stage
 from catenaria.discretise.restart import start_from, with_full_gravity
-from catenaria.discretise.wire_model import DropperSetup, TensionSetup, WireModel, WireSetup, build_wire_model
+from catenaria.discretise.wire_model import WireModel, build_wire_model
+from catenaria.discretise.wire_setup import DropperSetup, TensionSetup, WireSetup
 from catenaria.errors import CatenariaError
 from catenaria.formfinding.controlled_motion import Motion, move
 from catenaria.formfinding.motion_problem import Tolerances

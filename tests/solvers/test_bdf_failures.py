@@ -6,15 +6,18 @@ import numpy as np
 import pytest
 
 from catenaria.errors import NotConvergedError
-from catenaria.solvers import Options, Start, Status, integrate
+from catenaria.solvers import Options, Solution, Start, Status, integrate
 
 AT_REST = Start(0.0, np.array([1.0, 0.0, 0.0]), np.zeros(3))
 
 
 def failure(*arguments):
+    """Return the error with which an integration fails, and what was computed until then."""
     with pytest.raises(NotConvergedError) as caught:
         integrate(*arguments)
-    return caught.value
+    partial = caught.value.partial
+    assert isinstance(partial, Solution)
+    return caught.value, partial
 
 
 def test_residual_that_is_not_a_number(pendulum, monkeypatch):
@@ -23,12 +26,12 @@ def test_residual_that_is_not_a_number(pendulum, monkeypatch):
     monkeypatch.setattr(
         problem, "residual", lambda t, *rest: right(t, *rest) if t < 0.5 else np.full(3, np.nan)
     )
-    error = failure(problem, AT_REST, 1.0, Options(min_step=1e-7))
-    assert error.partial.status is Status.STEP_FAILED
+    error, partial = failure(problem, AT_REST, 1.0, Options(min_step=1e-7))
+    assert partial.status is Status.STEP_FAILED
     assert "not finite" in error.reason
-    assert 0.4 < error.partial.t[-1] < 0.5
-    assert np.isfinite(error.partial.y).all()
-    assert error.partial.counters.newton_failures > 5
+    assert 0.4 < partial.t[-1] < 0.5
+    assert np.isfinite(partial.y).all()
+    assert partial.counters.newton_failures > 5
     assert error.advice
 
 
@@ -40,9 +43,9 @@ def test_constraint_that_is_given_twice(base_problem, to_sparse):
         def jacobian(self, t, y, yd, ydd, c1, c2):
             return to_sparse(np.array([[c2, 1.0, 1.0], [1.0, 0.0, 0.0], [1.0, 0.0, 0.0]]))
 
-    error = failure(Twice([2, 0, 0], [1, 2], 1e-6, 1e-9), Start(0.0, np.zeros(3), np.zeros(3)), 1.0)
+    error, partial = failure(Twice([2, 0, 0], [1, 2], 1e-6, 1e-9), Start(0.0, np.zeros(3), np.zeros(3)), 1.0)
     assert "singular" in error.reason
-    assert error.partial.t.size == 1
+    assert partial.t.size == 1
 
 
 def test_solution_that_ends(base_problem, to_sparse):
@@ -55,22 +58,22 @@ def test_solution_that_ends(base_problem, to_sparse):
         def jacobian(self, t, y, yd, ydd, c1, c2):
             return to_sparse(np.array([[c1 - 2 * y[0]]]))
 
-    error = failure(
+    _, partial = failure(
         Pole([1], [], 1e-4, 1e-7), Start(0.0, np.ones(1), np.ones(1)), 2.0, Options(min_step=1e-6)
     )
-    assert error.partial.status is Status.STEP_FAILED
-    assert 0.9 < error.partial.t[-1] < 1.01
+    assert partial.status is Status.STEP_FAILED
+    assert 0.9 < partial.t[-1] < 1.01
 
 
 def test_too_many_steps(pendulum):
-    error = failure(pendulum(), AT_REST, 10.0, Options(max_steps=50))
-    assert error.partial.status is Status.TOO_MANY_STEPS
-    assert error.partial.counters.steps + error.partial.counters.rejected == 50
-    assert error.partial.t.size == error.partial.counters.steps + 1
+    _, partial = failure(pendulum(), AT_REST, 10.0, Options(max_steps=50))
+    assert partial.status is Status.TOO_MANY_STEPS
+    assert partial.counters.steps + partial.counters.rejected == 50
+    assert partial.t.size == partial.counters.steps + 1
 
 
 def test_constant_step_is_not_shortened(pendulum, monkeypatch):
     problem = pendulum()
     monkeypatch.setattr(problem, "residual", lambda t, y, yd, ydd: np.full(3, np.inf))
-    error = failure(problem, AT_REST, 1.0, Options(constant_step=0.1))
-    assert error.partial.counters.rejected == 1
+    _, partial = failure(problem, AT_REST, 1.0, Options(constant_step=0.1))
+    assert partial.counters.rejected == 1

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from sksundae.ida import IDA
+from sksundae.ida import IDA  # pyright: ignore[reportMissingImports]  # compiled, without stubs
 
 from catenaria.solvers import Options, Start, integrate
 

@@ -59,7 +59,7 @@ def reference(t_end):
         def event(t, state, piece):
             return state[0] - KNOTS[piece + side]
 
-        event.terminal, event.direction = True, 2 * side - 1
+        vars(event).update(terminal=True, direction=2 * side - 1)
         return event
 
     t, state, piece, crossings = 0.0, np.array([X0, 0.0]), int(np.searchsorted(KNOTS, X0)) - 1, 0

@@ -40,6 +40,7 @@ def test_contraction_with_a_kept_factorisation_is_the_predicted_one(linear, rati
         problem, StepEquations(0.0, 50.0, np.zeros(2), np.zeros(2)), np.ones(2), None
     ).linearisation
     result = correct(problem, StepEquations(0.0, 50.0 * ratio, np.zeros(2), np.zeros(2)), np.ones(2), kept)
+    assert result.linearisation is not None
     assert result.linearisation.rate == pytest.approx(abs(ratio - 1) / (ratio + 1), rel=1e-6)
 
 
@@ -51,6 +52,7 @@ def test_negative_control_without_the_damping_the_iteration_contracts_more_slowl
         problem, StepEquations(0.0, 50.0, np.zeros(2), np.zeros(2)), np.ones(2), None
     ).linearisation
     result = correct(problem, StepEquations(0.0, 60.0, np.zeros(2), np.zeros(2)), np.ones(2), kept)
+    assert result.linearisation is not None
     assert result.linearisation.rate > 1.5 * 0.2 / 2.2
 
 

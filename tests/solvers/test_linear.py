@@ -13,7 +13,7 @@ N, M = 40, 8
 
 def saddle(h):
     """Return [[M/h^2 + K, G'], [G, 0]] of a chain of springs with a few constraints, and its masks."""
-    K = diags_array([-1e4, 2e4, -1e4], offsets=[-1, 0, 1], shape=(N, N))
+    K = 1e4 * csc_array(2.0 * np.eye(N) - np.eye(N, k=1) - np.eye(N, k=-1))
     mass = diags_array(0.5 + 0.5 * np.cos(np.arange(N)) ** 2)
     G = csc_array((np.ones(M), (np.arange(M), 5 * np.arange(M))), shape=(M, N))
     matrix = csc_array(block_array([[K + mass / h**2, G.T], [G, None]]))

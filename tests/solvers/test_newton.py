@@ -7,7 +7,7 @@ import pytest
 from scipy.sparse import csc_array
 
 from catenaria.errors import NotConvergedError
-from catenaria.solvers.newton import NewtonOptions, solve_newton
+from catenaria.solvers.newton import NewtonOptions, Root, solve_newton
 
 
 class Scalar:
@@ -26,7 +26,7 @@ class Scalar:
     def jacobian(self, y):
         return csc_array(np.array([[self.f_y(y[0])]]))
 
-    def reselect(self, y):
+    def reselect(self, y) -> Scalar | None:
         return None
 
 
@@ -94,6 +94,7 @@ def test_discrete_state_follows_the_iterates():
 
     root = solve_newton(Kink(False), np.array([-3.0]))
     assert root.y[0] == pytest.approx(2.0)
+    assert isinstance(root.problem, Kink)
     assert root.problem.right
 
 
@@ -108,12 +109,16 @@ def test_discrete_state_follows_the_iterates():
 def test_failures_carry_their_reason_and_the_last_iterate(f, f_y, y, complaint):
     with pytest.raises(NotConvergedError, match=complaint) as caught:
         solve_newton(Scalar(f, f_y), np.array([y]))
-    assert not caught.value.partial.converged
-    assert np.isfinite(caught.value.partial.y).all()
+    partial = caught.value.partial
+    assert isinstance(partial, Root)
+    assert not partial.converged
+    assert np.isfinite(partial.y).all()
 
 
 def test_iterations_are_limited():
     problem = Scalar(lambda y: y**3, lambda y: 3.0 * y * y)
     with pytest.raises(NotConvergedError, match="3 iterations") as caught:
         solve_newton(problem, np.ones(1), NewtonOptions(max_iterations=3))
-    assert caught.value.partial.corrections.size == 3
+    partial = caught.value.partial
+    assert isinstance(partial, Root)
+    assert partial.corrections.size == 3

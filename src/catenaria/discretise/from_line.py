@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from catenaria.discretise.mesh import Grading
-from catenaria.discretise.wire_model import DropperSetup, TensionSetup, WireSetup
+from catenaria.discretise.wire_setup import DropperSetup, TensionSetup, WireSetup
 from catenaria.line import Conductor, Line, TensionControl, Wire
 from catenaria.mechanics.chain import Section
 from catenaria.mechanics.controls.velocity_law import VelocityLaw

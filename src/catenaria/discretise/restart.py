@@ -7,7 +7,8 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from catenaria.discretise.wire_model import WireModel, WireSetup
+from catenaria.discretise.wire_model import WireModel
+from catenaria.discretise.wire_setup import WireSetup
 from catenaria.errors import InconsistentInputError
 from catenaria.mechanics.chain import Chain, Section
 from catenaria.mechanics.loads.gravity import Ramp

@@ -12,11 +12,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from catenaria.discretise.mesh import Grading, graded_knots, material_coordinate
-from catenaria.mechanics.chain import Chain, Section
-from catenaria.mechanics.controls.control import Controls, Measure
+from catenaria.discretise.mesh import graded_knots, material_coordinate
+from catenaria.discretise.wire_setup import DropperSetup, WireSetup
+from catenaria.mechanics.chain import Chain
+from catenaria.mechanics.controls.control import Controls
 from catenaria.mechanics.controls.measures import DropperForce, Height, ReactionTension, StrainTension
-from catenaria.mechanics.controls.velocity_law import VelocityLaw
 from catenaria.mechanics.elements.cable import CableElements
 from catenaria.mechanics.joints.guided import GuidedJoints
 from catenaria.mechanics.joints.held_point import HeldPoints
@@ -29,98 +29,7 @@ from catenaria.mechanics.unknowns import Kind, UnknownsBuilder
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 
-
-@dataclass(frozen=True)
-class TensionSetup:
-    """Tension control of a wire, eqs. (19)-(20): `force` [N], how and where it is measured, the law."""
-
-    force: float
-    measure: str
-    at_end: bool
-    law: VelocityLaw
-
-
-@dataclass(frozen=True)
-class DropperSetup:
-    """The dropper cables of one step and what controls them.
-
-    Attributes
-    ----------
-    x : FloatArray, shape (n,)
-        Positions along the track [m].
-    up : bool
-        True for the lower cables, which stand up from the contact wire and are raised; False for the upper
-        ones, which hang from the messenger and are pulled down.
-    length, elements, section
-        Guessed length [m], number of elements and cross-section of each cable.
-    clamp_mass : float
-        Mass at the wire's end [kg].
-    guided : bool
-        Guided joint with the wire; False for the frictionless joint (15).
-    target : FloatArray, shape (n,)
-        Wanted heights [m] for the lower cables, forces T_cd [N] for the upper ones.
-    law : VelocityLaw
-        Law (21), or the similar one for (23).
-    foot_height : FloatArray, shape (n,)
-        Heights of P_cd [m]; used by the upper cables for the weight G of (23).
-    clamp_weight : float
-        Mass of both clamps [kg]; used by the upper cables for G.
-    """
-
-    x: FloatArray
-    up: bool
-    length: float
-    elements: int
-    section: Section
-    clamp_mass: float
-    guided: bool
-    target: FloatArray
-    law: VelocityLaw
-    foot_height: FloatArray
-    clamp_weight: float
-
-
-@dataclass(frozen=True)
-class WireSetup:
-    """Everything that one step needs, in SI units.
-
-    Attributes
-    ----------
-    name : str
-        Name of the wire.
-    section : Section
-        Cross-section of the wire.
-    support_x : FloatArray, shape (m,)
-        Where the wire is held, ascending [m].
-    height : float
-        Height of its supports [m].
-    tail : float
-        How far the wire runs on beyond its first and last support [m].
-    tension, droppers
-        The controls.
-    grading, gauss_points
-        The mesh.
-    g, gravity_ramp : float, Ramp
-        Gravity [m/s^2] and its ramp (31).
-    control_ramp : Ramp
-        Brings the control velocities in.
-    damping : tuple of float
-        Rayleigh's alpha [1/s] and beta [s].
-    """
-
-    name: str
-    section: Section
-    support_x: FloatArray
-    height: float
-    tail: float
-    tension: TensionSetup
-    droppers: DropperSetup
-    grading: Grading
-    gauss_points: int
-    g: float
-    gravity_ramp: Ramp
-    control_ramp: Ramp
-    damping: tuple[float, float]
+_ALONG, _UP = np.array([1.0, 0.0, 0.0]), np.array([0.0, 0.0, 1.0])
 
 
 @dataclass(frozen=True)
@@ -172,74 +81,64 @@ class WireModel:
         return tension, droppers
 
 
+@dataclass(frozen=True)
+class _Numbers:
+    """Indices of joints and controls, named as in `WireModel`; `free_force` holds the droppers' ends."""
+
+    support_s: IntArray
+    support_force: IntArray
+    clamp_s: IntArray
+    clamp_force: IntArray
+    free_force: IntArray
+    end_force: IntArray
+    pull: IntArray
+    dropper_travel: IntArray
+
+    @classmethod
+    def of(cls, setup: WireSetup, unknowns: UnknownsBuilder) -> _Numbers:
+        """Number them."""
+        n, m = setup.droppers.x.size, setup.support_x.size
+        start_x = setup.support_x[0] - setup.tail
+        return cls(
+            support_s=unknowns.add(Kind.SLIDING, setup.support_x - start_x),
+            support_force=unknowns.add(Kind.MULTIPLIER, np.zeros((m, 3))),
+            clamp_s=unknowns.add(Kind.SLIDING, setup.droppers.x - start_x),
+            clamp_force=unknowns.add(Kind.MULTIPLIER, np.zeros((n, 3))),
+            free_force=unknowns.add(Kind.MULTIPLIER, np.zeros((n, 3))),
+            end_force=unknowns.add(Kind.MULTIPLIER, np.zeros((2, 3))),
+            pull=unknowns.add(Kind.PARAMETER, np.zeros(1)),
+            dropper_travel=unknowns.add(Kind.PARAMETER, np.zeros(n)),
+        )
+
+
 def build_wire_model(setup: WireSetup) -> WireModel:
     """Return the starting configuration of Fig. 5(b) with all joints, loads and controls."""
     unknowns = UnknownsBuilder()
     wire = _straight_wire(setup, unknowns)
     cables = _dropper_cables(setup.droppers, setup.height, unknowns)
-    n, m = setup.droppers.x.size, setup.support_x.size
-    start_x = setup.support_x[0] - setup.tail
-
-    support_s = unknowns.add(Kind.SLIDING, setup.support_x - start_x)
-    support_force = unknowns.add(Kind.MULTIPLIER, np.zeros((m, 3)))
-    clamp_s = unknowns.add(Kind.SLIDING, setup.droppers.x - start_x)
-    clamp_force = unknowns.add(Kind.MULTIPLIER, np.zeros((n, 3)))
-    free_force = unknowns.add(Kind.MULTIPLIER, np.zeros((n, 3)))
-    end_force = unknowns.add(Kind.MULTIPLIER, np.zeros((2, 3)))
-    pull = unknowns.add(Kind.PARAMETER, np.zeros(1))
-    travel = unknowns.add(Kind.PARAMETER, np.zeros(n))
+    at = _Numbers.of(setup, unknowns)
     table = unknowns.build()
-    z = table.start
-
-    inner = np.array([cable.nodes[0, :3] for cable in cables]).reshape(n, 3)
-    outer = np.array([cable.nodes[-1, :3] for cable in cables]).reshape(n, 3)
-    ends = wire.nodes[[0, -1], :3]
-    outwards = np.array([[-1.0, 0.0, 0.0], [1.0, 0.0, 0.0]])
-    travel_direction = np.tile([0.0, 0.0, 1.0 if setup.droppers.up else -1.0], (n, 1))
-
-    support_x = np.column_stack((setup.support_x, np.zeros(m), np.full(m, setup.height)))
-    supports = SlidingJoints(wire, support_s, support_force, wire.locate(z[support_s]), support_x)
-    held_ends = HeldPoints(ends, end_force, z[ends], outwards, np.repeat(pull, 2))
-    held_droppers = HeldPoints(outer, free_force, z[outer], travel_direction, travel)
-    clamps = _clamps(setup.droppers, wire, clamp_s, clamp_force, inner, wire.locate(z[clamp_s]))
     elements = CableElements.of([wire, *cables], setup.gauss_points)
-    inertia, damping, gravity = _loads(setup, elements, inner, z)
-
-    tension = Controls(
-        pull,
-        _tension_measure(setup, supports, end_force, outwards),
-        np.array([setup.tension.force]),
-        setup.tension.law,
-        setup.control_ramp,
-        Ramp(0.0),
-    )
-    heights = _dropper_controls(setup, travel, clamp_force, inner)
-    parts = (
-        elements,
-        inertia,
-        *damping,
-        gravity,
-        supports,
-        held_ends,
-        held_droppers,
-        clamps,
-        tension,
-        heights,
-    )
+    inner = np.array([cable.nodes[0, :3] for cable in cables])
+    inertia, damping, gravity = _loads(setup, elements, inner, table.start)
+    supports, held_ends, held_droppers, clamps = _joints(setup, wire, cables, at, table.start)
+    tension = _tension_control(setup, supports, held_ends, at)
+    droppers = _dropper_controls(setup, at, inner)
+    joints = (supports, held_ends, held_droppers, clamps)
     return WireModel(
-        setup,
-        System(table, parts),
-        wire,
-        cables,
-        elements,
-        inertia,
-        end_force,
-        support_s,
-        support_force,
-        clamp_s,
-        clamp_force,
-        pull,
-        travel,
+        setup=setup,
+        system=System(table, (elements, inertia, *damping, gravity, *joints, tension, droppers)),
+        wire=wire,
+        cables=cables,
+        elements=elements,
+        inertia=inertia,
+        end_force=at.end_force,
+        support_s=at.support_s,
+        support_force=at.support_force,
+        clamp_s=at.clamp_s,
+        clamp_force=at.clamp_force,
+        pull=at.pull,
+        dropper_travel=at.dropper_travel,
     )
 
 
@@ -251,18 +150,17 @@ def _straight_wire(setup: WireSetup, unknowns: UnknownsBuilder) -> Chain:
     strain = setup.tension.force / setup.section.EA
     centres = material_coordinate(will_be_held, 0.5 * (first + last), length, strain)
     knots = graded_knots(length, centres, setup.grading)
-    along = np.array([1.0, 0.0, 0.0])
     position = np.column_stack(
         (first - setup.tail + knots, np.zeros_like(knots), np.full_like(knots, setup.height))
     )
-    nodes = np.array([unknowns.add_node(r, along) for r in position])
+    nodes = np.array([unknowns.add_node(r, _ALONG) for r in position])
     return Chain(nodes, knots, setup.section)
 
 
 def _dropper_cables(setup: DropperSetup, height: float, unknowns: UnknownsBuilder) -> tuple[Chain, ...]:
     """Return one straight vertical cable for each dropper, from the wire up or down."""
     knots = np.linspace(0.0, setup.length, setup.elements + 1)
-    along = np.array([0.0, 0.0, 1.0 if setup.up else -1.0])
+    along = _UP if setup.up else -_UP
     return tuple(
         Chain(
             np.array([unknowns.add_node(np.array([x, 0.0, height]) + s * along, along) for s in knots]),
@@ -273,12 +171,28 @@ def _dropper_cables(setup: DropperSetup, height: float, unknowns: UnknownsBuilde
     )
 
 
-def _clamps(
-    setup: DropperSetup, wire: Chain, s: IntArray, force: IntArray, inner: IntArray, element: IntArray
-) -> GuidedJoints | SlidingJoints:
-    if setup.guided:
-        return GuidedJoints(wire, s, force, element, setup.x, inner)
-    return SlidingJoints(wire, s, force, element, np.zeros((setup.x.size, 3)), inner)
+def _joints(
+    setup: WireSetup, wire: Chain, cables: tuple[Chain, ...], at: _Numbers, z: FloatArray
+) -> tuple[SlidingJoints, HeldPoints, HeldPoints, SlidingJoints | GuidedJoints]:
+    """Return supports, driven wire ends, driven dropper ends, and the clamps between wire and droppers."""
+    droppers = setup.droppers
+    level = np.zeros_like(setup.support_x)
+    X = np.column_stack((setup.support_x, level, level + setup.height))
+    supports = SlidingJoints(wire, at.support_s, at.support_force, wire.locate(z[at.support_s]), X)
+
+    ends = wire.nodes[[0, -1], :3]
+    held_ends = HeldPoints(ends, at.end_force, z[ends], np.outer([-1.0, 1.0], _ALONG), np.repeat(at.pull, 2))
+    outer = np.array([cable.nodes[-1, :3] for cable in cables])
+    moved = np.tile(_UP if droppers.up else -_UP, (len(cables), 1))
+    held_droppers = HeldPoints(outer, at.free_force, z[outer], moved, at.dropper_travel)
+
+    inner = np.array([cable.nodes[0, :3] for cable in cables])
+    element = wire.locate(z[at.clamp_s])
+    if droppers.guided:
+        clamps = GuidedJoints(wire, at.clamp_s, at.clamp_force, element, droppers.x, inner)
+    else:
+        clamps = SlidingJoints(wire, at.clamp_s, at.clamp_force, element, np.zeros_like(z[inner]), inner)
+    return supports, held_ends, held_droppers, clamps
 
 
 def _loads(
@@ -294,27 +208,29 @@ def _loads(
     return Inertia(M), damping, Gravity(elements.weight(z.size) + point_weight, setup.g, setup.gravity_ramp)
 
 
-def _tension_measure(
-    setup: WireSetup, supports: SlidingJoints, end_force: IntArray, outwards: FloatArray
-) -> Measure:
+def _tension_control(setup: WireSetup, supports: SlidingJoints, ends: HeldPoints, at: _Numbers) -> Controls:
+    """Return the control (19)-(20) of a wire: one velocity moves both ends apart, one end is measured."""
     end = slice(-1, None) if setup.tension.at_end else slice(0, 1)
     if setup.tension.measure == "strain":
-        return StrainTension(supports.wire, supports.s[end], supports.element[end])
-    return ReactionTension(end_force[end], outwards[end])
+        measure = StrainTension(supports.wire, supports.s[end], supports.element[end])
+    else:
+        measure = ReactionTension(ends.multipliers[end], ends.direction[end])
+    target = np.array([setup.tension.force])
+    return Controls(at.pull, measure, target, setup.tension.law, setup.control_ramp, Ramp(0.0))
 
 
-def _dropper_controls(setup: WireSetup, travel: IntArray, clamp_force: IntArray, inner: IntArray) -> Controls:
+def _dropper_controls(setup: WireSetup, at: _Numbers, inner: IntArray) -> Controls:
     """Return the height controls (21)-(22) of lower cables, or the force controls (23) of upper ones.
 
     The forces grow with gravity, so that no upper cable has to push its end of the messenger up while that
     falls: a cable that pushes buckles.
     """
-    droppers = setup.droppers
+    droppers, travel = setup.droppers, at.dropper_travel
     if droppers.up:
         measure = Height(inner[:, 2])
         return Controls(travel, measure, droppers.target, droppers.law, setup.control_ramp, Ramp(0.0))
     measure = DropperForce(
-        clamp_force[:, 2],
+        at.clamp_force[:, 2],
         inner[:, 2],
         droppers.foot_height,
         droppers.section.rhoA,

@@ -97,8 +97,8 @@ def tolerances(model: WireModel, position: float) -> Tolerances:
 
     Notes
     -----
-    A wire or cable of length L turns a correction of d metres into EA d/L newtons, so corrections must be far smaller
-    than positions are wanted: 0.02 N is 25 nm of a dropper.
+    A wire or cable of length L turns a correction of d metres into EA d/L newtons, so corrections must be
+    far smaller than positions are wanted: 0.02 N is 25 nm of a dropper.
     """
     tension, droppers = (control.law.e0 for control in model.controls(model.system))
     bands = (tension,) if model.setup.droppers.up else (tension, droppers)

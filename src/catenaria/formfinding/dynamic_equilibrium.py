@@ -21,7 +21,8 @@ from catenaria.discretise.from_line import contact_wire_setup, messenger_wire_se
 from catenaria.discretise.history import control_names, control_units, history
 from catenaria.discretise.read_back import stage, support_strain_tension, wire_form
 from catenaria.discretise.restart import start_from, with_full_gravity
-from catenaria.discretise.wire_model import WireModel, WireSetup, build_wire_model
+from catenaria.discretise.wire_model import WireModel, build_wire_model
+from catenaria.discretise.wire_setup import WireSetup
 from catenaria.errors import InconsistentInputError
 from catenaria.formfinding.controlled_motion import Motion, move, system_of, tolerances
 from catenaria.formfinding.progress import Listener, Progress

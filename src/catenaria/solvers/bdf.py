@@ -61,6 +61,27 @@ def integrate(
     NotConvergedError
         If the step becomes too small or there are too many of them; `partial` is the solution until then.
 
+    Examples
+    --------
+    The equation y' + y = 0:
+
+    >>> from scipy.sparse import csc_array
+    >>> class Decay:
+    ...     size, order_of, constraint = 1, np.array([1], dtype=np.int8), np.array([False])
+    ...     error_scale, newton_scale = np.array([1e-6]), np.array([1e-9])
+    ...
+    ...     def residual(self, t, y, yd, ydd):
+    ...         return yd + y
+    ...
+    ...     def jacobian(self, t, y, yd, ydd, c1, c2):
+    ...         return csc_array([[1.0 + c1]])
+    ...
+    ...     def reselect(self, y):
+    ...         return None
+    >>> solution = integrate(Decay(), Start(0.0, np.array([1.0]), np.array([-1.0])), 1.0)
+    >>> bool(abs(solution.y[-1, 0] - np.exp(-1.0)) < 1e-4), solution.status.name
+    (True, 'END_REACHED')
+
     References
     ----------
     Brenan, Campbell & Petzold 1996, Numerical Solution of Initial-Value Problems in DAEs, chapter 5.

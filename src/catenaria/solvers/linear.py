@@ -62,6 +62,12 @@ def index3_scaling(matrix: SparseMatrix, order_of: OrderArray, constraint: BoolA
     [[d0^2 M + K, G'], [G, 0]] has a condition number of the order of h^-4 in this form; with both
     off-diagonal blocks of the size of the first one it tends to that of [[M, G'], [G, 0]].
 
+    Examples
+    --------
+    >>> matrix = csc_array([[1e8, 1.0], [1.0, 0.0]])
+    >>> index3_scaling(matrix, np.array([2, 0], dtype=np.int8), np.array([False, True])).row
+    array([1.e+00, 1.e+08])
+
     References
     ----------
     Petzold & Lotstedt 1986, SIAM J. Sci. Stat. Comput. 7, 720-733.
@@ -97,6 +103,11 @@ def factorise(
     ------
     numpy.linalg.LinAlgError
         If an entry is not finite or the matrix is exactly singular.
+
+    Examples
+    --------
+    >>> factorise(csc_array([[2.0, 1.0], [1.0, 0.0]])).solve(np.array([3.0, 1.0]))
+    array([1., 1.])
     """
     if not np.isfinite(matrix.data).all():
         raise np.linalg.LinAlgError("the matrix has an entry that is not finite")

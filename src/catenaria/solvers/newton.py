@@ -96,9 +96,27 @@ def solve_newton(problem: AlgebraicProblem, y: FloatArray, options: NewtonOption
     1 - a/4. This test does not depend on how the rows of f are scaled. The next a is Deuflhard's estimate
     a^2 |d| / (2 |dbar - (1 - a) d|).
 
+    Examples
+    --------
+    >>> from scipy.sparse import csc_array
+    >>> class Root2:
+    ...     newton_scale = np.array([1e-12])
+    ...
+    ...     def residual(self, y):
+    ...         return y * y - 2.0
+    ...
+    ...     def jacobian(self, y):
+    ...         return csc_array([[2.0 * y[0]]])
+    ...
+    ...     def reselect(self, y):
+    ...         return None
+    >>> root = solve_newton(Root2(), np.array([1.0]))
+    >>> round(float(root.y[0]), 12), root.converged
+    (1.414213562373, True)
+
     References
     ----------
-    Deuflhard 2004, Newton Methods for Nonlinear Problems, section 3.3.3, algorithm NLEQ-ERR.
+    Deuflhard 2004, Newton Methods for Nonlinear Problems, section 3.3, algorithm NLEQ-ERR.
     """
     options = options or NewtonOptions()
     iterate = _Iterate(np.array(y, dtype=np.float64), problem)
