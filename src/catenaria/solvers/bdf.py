@@ -149,10 +149,15 @@ def _smallest_step(t: float, options: Options) -> float:
 
 
 def _after_newton_failure(state: State, h: float, failure: str) -> State:
-    counters = state.counters.plus(Counters(rejected=1, newton_failures=1))
+    """Halve the step; quarter it at the next failure, and so on: a first step may be wrong by decades."""
     failures = state.failures + 1
     return replace(
-        state, h=0.5 * h, counters=counters, held=NOTHING_HELD, failures=failures, complaint=failure
+        state,
+        h=0.5**failures * h,
+        counters=state.counters.plus(Counters(rejected=1, newton_failures=1)),
+        held=NOTHING_HELD,
+        failures=failures,
+        complaint=failure,
     )
 
 

@@ -131,7 +131,7 @@ def _correct_once(
 
 def _was_contracting(result: Correction) -> bool:
     """Say whether the last iterate of an unfinished iteration is better than the first one."""
-    return result.linearisation is not None and 0.0 < result.linearisation.rate < 1.0
+    return result.linearisation is not None and 0.0 < result.linearisation.rate < DIVERGING
 
 
 def _linearise(problem: DaeProblem, equations: StepEquations, y: FloatArray) -> Linearisation:
