@@ -100,6 +100,7 @@ def wire(name: str, beam: Beam, EA: float, top: float) -> WireForm:
         horizontal_end=T - 5.4,
         reaction_start=T - 5.3,
         reaction_end=T - 5.3,
+        end_force=np.array([[T - 5.3, 0.0, 0.0], [5.3 - T, 0.0, 0.0]]),
         tension_min=float(tension.min()),
         tension_max=float(tension.max()),
         tension_mean=float(tension.mean()),
@@ -199,6 +200,10 @@ def build(spans: int) -> FormResult:
             height_error=lowered,
             messenger_height=height,
             force_error=zero + 0.021,
+            contact_coordinate=zero + 1.0,
+            messenger_coordinate=zero + 1.0,
+            on_contact=np.zeros((zero.size, 3)),
+            on_messenger=np.zeros((zero.size, 3)),
         ),
         wires=(contact, messenger),
         supports=Supports(

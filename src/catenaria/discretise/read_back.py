@@ -104,6 +104,7 @@ def wire_form(model: WireModel, control: ControlBatch, t: float, z: FloatArray) 
         horizontal_end=float(along[1]),
         reaction_start=float(force[0]),
         reaction_end=float(force[1]),
+        end_force=z[model.end_force],
         tension_min=float(tension.min()),
         tension_max=float(tension.max()),
         tension_mean=float(tension @ L / L.sum()),

@@ -35,6 +35,7 @@ from catenaria.solvers.outcome import Options, Step
 FloatArray = NDArray[np.float64]
 
 _STAGES = 3
+_FIRST_STEP = 0.01  # part of the ramp in which next to nothing happens
 
 
 @dataclass(frozen=True)
@@ -91,7 +92,11 @@ class DynamicEquilibrium:
         return move(
             model,
             tolerances(model, options.integrator.position_tolerance),
-            Options(max_order=options.integrator.max_order, max_steps=options.integrator.max_steps),
+            Options(
+                max_order=options.integrator.max_order,
+                initial_step=_FIRST_STEP * options.ramp_time,
+                max_steps=options.integrator.max_steps,
+            ),
             Settled(options.settle.velocity, options.settle.dead_bands, options.settle.remaining_travel),
             options.integrator.max_time,
             self._observers(model, number, begin),
@@ -189,7 +194,18 @@ def dropper_schedule(line: Line, contact: Motion, messenger: Motion) -> Droppers
         height_error=foot - target,
         messenger_height=top,
         force_error=messenger.controls[1].error(messenger.t, messenger.z),
+        contact_coordinate=contact.z[contact.model.clamp_s],
+        messenger_coordinate=messenger.z[messenger.model.clamp_s],
+        on_contact=_on_wire(contact),
+        on_messenger=_on_wire(messenger),
     )
+
+
+def _on_wire(motion: Motion) -> FloatArray:
+    """Return the forces of droppers and clamps on the wire, shape (n, 3), without those of guides."""
+    force = -motion.z[motion.model.clamp_force]
+    along = 0.0 if motion.model.setup.droppers.guided else 1.0
+    return force * np.array([along, 1.0, 1.0])
 
 
 def _supports(motions: tuple[Motion, ...], names: tuple[tuple[str, ...], ...]) -> Supports:

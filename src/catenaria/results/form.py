@@ -40,6 +40,10 @@ class Droppers:
         Height of the messenger axis at the dropper [m].
     force_error : FloatArray
         Residual of eq. (23) [N].
+    contact_coordinate, messenger_coordinate : FloatArray
+        Material coordinates of the wires at the clamps, from the wires' starts [m].
+    on_contact, on_messenger : FloatArray, shape (n, 3)
+        Forces of dropper and clamp on the two wires [N].
     """
 
     span: IntArray
@@ -55,6 +59,10 @@ class Droppers:
     height_error: FloatArray
     messenger_height: FloatArray
     force_error: FloatArray
+    contact_coordinate: FloatArray
+    messenger_coordinate: FloatArray
+    on_contact: FloatArray
+    on_messenger: FloatArray
 
 
 @dataclass(frozen=True)
@@ -105,6 +113,8 @@ class WireForm:
         Component along the track of the reaction at the two wire ends [N].
     reaction_start, reaction_end : float
         Size of the reaction at the two wire ends [N].
+    end_force : FloatArray, shape (2, 3)
+        Forces of the wire's start and end on the tensioning devices [N].
     tension_min, tension_max, tension_mean : float
         Of the element means of the true axial force between the first and the last support [N].
     travel : float
@@ -129,6 +139,7 @@ class WireForm:
     horizontal_end: float
     reaction_start: float
     reaction_end: float
+    end_force: FloatArray
     tension_min: float
     tension_max: float
     tension_mean: float
@@ -275,7 +286,9 @@ class Stage:
     parameter : FloatArray
         Control parameters [m], tension first, then droppers.
     multiplier : FloatArray
-        Lagrange multipliers [N].
+        Lagrange multipliers [N], three each: forces of the wire on supports, on droppers (guided: the first is
+        the force of the dropper's guide), of the droppers' far ends on what moves them, of the wire's ends on
+        the devices.
     """
 
     step: str

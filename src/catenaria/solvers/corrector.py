@@ -13,6 +13,7 @@ from catenaria.solvers.problem import DaeProblem, FloatArray
 
 MAX_ITERATIONS = 4
 MAX_LINEARISATIONS = 4
+MAX_FULL = 10  # iterations of the full Newton method, the last resort before a step is cut
 MAX_RESELECTIONS = 8
 D0_BAND = 0.25  # relative change of d0 that a kept factorisation survives
 SLOW = 0.3  # contraction rate above which the next step begins with a new factorisation
@@ -126,7 +127,33 @@ def _correct_once(
         if result.failure is None or not _was_contracting(result):
             break
         y = result.y
-    return replace(result, work=work)
+    if result.failure is None:
+        return replace(result, work=work)
+    full = _full_newton(problem, equations, result.y if _was_contracting(result) else y)
+    return replace(full, work=full.work.plus(work))
+
+
+def _full_newton(problem: DaeProblem, equations: StepEquations, y: FloatArray) -> Correction:
+    """Linearise at every iterate, and let corrections grow in between, as they do across corners of a law."""
+    sizes: list[float] = []
+    for iteration in range(1, MAX_FULL + 1):
+        work = Counters(
+            jacobians=iteration, factorisations=iteration, residuals=iteration, newton_iterations=iteration
+        )
+        try:
+            linearisation = _linearise(problem, equations, y)
+        except np.linalg.LinAlgError as error:
+            return Correction(y, problem, None, work, str(error))
+        correction = -linearisation.factorisation.solve(problem.residual(equations.t, y, *equations.rates(y)))
+        if not np.isfinite(correction).all():
+            return Correction(y, problem, None, work, "the residual or a Newton correction is not finite")
+        y = y + correction
+        sizes.append(float(np.abs(correction / linearisation.negligible).max()))
+        if sizes[-1] <= 1.0:
+            return Correction(y, problem, linearisation, work)
+        if iteration > 4 and sizes[-1] > 0.5 * sizes[-3]:
+            break
+    return Correction(y, problem, None, work, "Newton's method converges too slowly")
 
 
 def _was_contracting(result: Correction) -> bool:
