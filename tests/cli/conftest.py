@@ -42,10 +42,6 @@ def small_result(droppers: int) -> Any:
             force_bottom=61.73 + 0.0 * n,
             height_error=-1.07e-5 + 0.0 * n,
             force_error=0.021 + 0.0 * n,
-            contact_coordinate=1.0 * n,
-            messenger_coordinate=1.0 * n,
-            on_contact=np.zeros((n.size, 3)),
-            on_messenger=np.zeros((n.size, 3)),
         ),
         wires=wires,
         counters=[

@@ -286,9 +286,9 @@ class Stage:
     parameter : FloatArray
         Control parameters [m], tension first, then droppers.
     multiplier : FloatArray
-        Lagrange multipliers [N], three each: forces of the wire on supports, on droppers (guided: the first is
-        the force of the dropper's guide), of the droppers' far ends on what moves them, of the wire's ends on
-        the devices.
+        Lagrange multipliers [N], three each: forces of the wire on supports, on droppers (guided: the first
+        is the force of the dropper's guide), of the droppers' far ends on what moves them, of the wire's ends
+        on the devices.
     """
 
     step: str
