@@ -73,7 +73,7 @@ class Integrator(LineModel):
         default=2, description="Highest order; above 2 BDF is not A-stable and undamped wires may ring."
     )
     position_tolerance: PositiveLength = Field(
-        default=1e-3, description="Allowed local error of positions in one step."
+        default=1e-4, description="Allowed local error of positions in one step."
     )
     max_time: PositiveTime = Field(default=1e6, description="Simulated time after which the run is given up.")
     max_steps: Count = Field(default=20_000, description="Number of steps after which the run is given up.")
