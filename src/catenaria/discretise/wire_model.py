@@ -52,6 +52,8 @@ class WireModel:
         Sliding coordinates at the supports, and forces of the wire on them.
     clamp_s, clamp_force : IntArray, shape (n,), (n, 3)
         Sliding coordinates at the droppers, and forces of the wire on them (la of the joints).
+    free_force : IntArray, shape (n, 3)
+        Forces of the dropper cables' far ends on what moves them.
     pull, dropper_travel : IntArray, shape (1,), (n,)
         Control parameters of the tension control and of the dropper controls.
     """
@@ -67,6 +69,7 @@ class WireModel:
     support_force: IntArray
     clamp_s: IntArray
     clamp_force: IntArray
+    free_force: IntArray
     pull: IntArray
     dropper_travel: IntArray
 
@@ -83,7 +86,7 @@ class WireModel:
 
 @dataclass(frozen=True)
 class _Numbers:
-    """Indices of joints and controls, named as in `WireModel`; `free_force` holds the droppers' ends."""
+    """Indices of the unknowns of joints and controls, named as in `WireModel`."""
 
     support_s: IntArray
     support_force: IntArray
@@ -137,6 +140,7 @@ def build_wire_model(setup: WireSetup) -> WireModel:
         support_force=at.support_force,
         clamp_s=at.clamp_s,
         clamp_force=at.clamp_force,
+        free_force=at.free_force,
         pull=at.pull,
         dropper_travel=at.dropper_travel,
     )

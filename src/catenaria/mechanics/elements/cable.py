@@ -124,9 +124,10 @@ class CableElements:
         .. math:: M = \rho A \int_0^L S^T S\, dl, integrated exactly with 4 points (degree 6).
         """
         points, weights = gauss_legendre(4)
-        N = np.stack([shape(points, np.full(points.size, L)) for L in self.L])
-        m = np.einsum("e,g,egk,egm->ekm", 0.5 * self.rhoA * self.L, weights, N, N)
-        return np.einsum("ekm,ij->ekimj", m, np.eye(3)).reshape(-1, 12, 12)
+        N = shape(np.broadcast_to(points, (self.L.size, 4)), self.L[:, None])
+        weighted = (0.5 * self.rhoA * self.L)[:, None, None] * weights[:, None] * N
+        m = weighted.transpose(0, 2, 1) @ N
+        return (m[:, :, None, :, None] * np.eye(3)[:, None, :]).reshape(-1, 12, 12)
 
     def weight(self, size: int) -> FloatArray:
         r"""Return the generalised force of gravity per unit of g, direction -z, shape (size,); eq. (17).

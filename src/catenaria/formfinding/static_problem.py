@@ -1,0 +1,59 @@
+"""A mechanical system at rest as the algebraic problem that Newton's method solves."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import csc_matrix
+
+from catenaria.mechanics.state import State
+from catenaria.mechanics.system import System
+from catenaria.mechanics.unknowns import Kind
+
+FloatArray = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class StaticProblem:
+    """`catenaria.solvers.problem.AlgebraicProblem` for a `System` without motion.
+
+    Parameters
+    ----------
+    system : System
+        What is to rest.
+    correction, force : float
+        Newton corrections of lengths [m] and of multipliers [N] that count as none.
+    """
+
+    system: System
+    correction: float
+    force: float
+
+    @cached_property
+    def _scale(self) -> FloatArray:
+        return np.where(self.system.unknowns.where(Kind.MULTIPLIER), self.force, self.correction)
+
+    @property
+    def newton_scale(self) -> FloatArray:
+        """Negligible corrections."""
+        return self._scale
+
+    @cached_property
+    def _rest(self) -> FloatArray:
+        return np.zeros(self.system.size)
+
+    def residual(self, y: FloatArray) -> FloatArray:
+        """Return F(0, y, 0, 0)."""
+        return self.system.residual(State(0.0, y, self._rest, self._rest))
+
+    def jacobian(self, y: FloatArray) -> csc_matrix:
+        """Return F_y."""
+        return self.system.jacobian(State(0.0, y, self._rest, self._rest))
+
+    def reselect(self, y: FloatArray) -> StaticProblem | None:
+        """Return the problem whose sliding joints are in the elements that fit y, or None."""
+        system = self.system.relocate(y)
+        return None if system is None else replace(self, system=system)
