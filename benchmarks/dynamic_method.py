@@ -26,7 +26,7 @@ MEMORY_LIMIT = 500.0  # MB
 def timed(line: Line) -> tuple[float, FormResult]:
     """Return the wall time of one run and its result."""
     begin = perf_counter()
-    result = solve(line)
+    result = solve(line, method="dynamic")
     return perf_counter() - begin, result
 
 
@@ -56,7 +56,7 @@ def main() -> None:
     parser.add_argument("--line", type=Path, default=EXAMPLE, help="line file")
     arguments = parser.parse_args()
     line = load_line(arguments.line)
-    solve(line)  # compiles or loads the kernels
+    solve(line, method="dynamic")  # compiles or loads the kernels
     measured = [timed(line) for _ in range(arguments.runs)]
     print(report([wall for wall, _ in measured], measured[-1][1]))
 

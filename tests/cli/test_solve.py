@@ -27,7 +27,7 @@ def run(*arguments: str) -> Any:
 def test_a_solved_line_is_written_and_summarised(workflow: Any) -> None:
     outcome = run("lines/three_span.yaml")
     assert (outcome.exit_code, outcome.stderr) == (0, "")
-    assert workflow.solved == [{"line": Path("lines/three_span.yaml"), "method": "dynamic", "start": None}]
+    assert workflow.solved == [{"line": Path("lines/three_span.yaml"), "method": "direct", "start": None}]
     assert workflow.written == [(Path("results/three_span"), True)]
     for text in (
         "Compiling kernels: on the first run only",

@@ -38,7 +38,7 @@ def line() -> Line:
 @pytest.fixture(scope="session")
 def paper(line: Line) -> FormResult:
     """The example as it stands."""
-    return solve(line)
+    return solve(line, method="dynamic")
 
 
 NARROW: Change = {
@@ -61,6 +61,6 @@ def narrow(variant: Callable[[Change], Line]) -> Callable[[tuple[tuple[str, Any]
 
     @cache
     def solved(change: tuple[tuple[str, Any], ...] = ()) -> FormResult:
-        return solve(variant(dict(change)))
+        return solve(variant(dict(change)), method="dynamic")
 
     return solved

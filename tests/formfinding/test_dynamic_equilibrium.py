@@ -152,7 +152,7 @@ def test_frictionless_droppers_are_shorter(line: Line, narrow: Solved) -> None:
 
 def test_start_from_an_earlier_result(line: Line, paper: FormResult) -> None:
     """Fig. 2, an interim configuration as input: from the end of a run the next one stays there."""
-    again = solve(line, start=paper)
+    again = solve(line, method="dynamic", start=paper)
     np.testing.assert_allclose(again.droppers.length, paper.droppers.length, atol=0.02e-3)
     assert sum(c.steps for c in again.counters) < 0.7 * sum(c.steps for c in paper.counters)
 
@@ -160,13 +160,13 @@ def test_start_from_an_earlier_result(line: Line, paper: FormResult) -> None:
 def test_start_for_another_tension_and_mesh(variant: Callable[[Any], Line], narrow: Solved) -> None:
     """From 15 kN on one mesh to 15.5 kN on a finer one: the same as from straight wires."""
     change = (("messenger_wire.tension.force", 15500.0), ("solver.mesh.refine", 2))
-    continued = solve(variant(dict(change)), start=narrow(()))
+    continued = solve(variant(dict(change)), method="dynamic", start=narrow(()))
     np.testing.assert_allclose(continued.droppers.length, narrow(change).droppers.length, atol=0.05e-3)
 
 
 def test_start_that_does_not_fit_is_refused(variant: Callable[[Any], Line], paper: FormResult) -> None:
     with pytest.raises(InconsistentInputError, match="2 m"):
-        solve(variant({"dropper.guessed_length": 2.0}), start=paper)
+        solve(variant({"dropper.guessed_length": 2.0}), method="dynamic", start=paper)
 
 
 def test_strain_measure_holds_the_strain_tension(line: Line, narrow: Solved) -> None:
@@ -183,6 +183,6 @@ def test_strain_measure_holds_the_strain_tension(line: Line, narrow: Solved) -> 
 
 
 def test_equal_input_gives_equal_results(line: Line, paper: FormResult) -> None:
-    again = solve(line)
+    again = solve(line, method="dynamic")
     np.testing.assert_array_equal(again.droppers.length, paper.droppers.length)
     np.testing.assert_array_equal(again.histories[1].error, paper.histories[1].error)

@@ -20,6 +20,7 @@ import catenaria
 from catenaria.mechanics.chain import Chain, Section
 from catenaria.mechanics.contribution import Contribution, Relocatable
 from catenaria.mechanics.controls.control import Controls, Measure
+from catenaria.mechanics.controls.target import Targets
 from catenaria.mechanics.controls.measures import DropperForce, Height, ReactionTension, StrainTension
 from catenaria.mechanics.controls.velocity_law import VelocityLaw
 from catenaria.mechanics.elements.cable import CableElements
@@ -166,6 +167,7 @@ PARTS: dict[str, Entry] = {
     "Controls of strain": Entry(lambda: controls(strain(), P[2:]), complex_step=False),
     "Controls of height": Entry(lambda: controls(height(), P[:2]), complex_step=False),
     "Controls of dropper force": Entry(lambda: controls(dropper(), P[2:]), complex_step=False),
+    "Targets": Entry(lambda: Targets.of(controls(strain(), P[2:])), complex_step=False),
 }
 MEASURES: dict[str, Callable[[], Measure]] = {
     "ReactionTension": reaction,
@@ -384,7 +386,7 @@ def test_jacobian_after_relocation(name: str) -> None:
     z[S] = [1.9, 0.7]
     state = replace(state, z=z)
     other = part.relocate(z)
-    if name in ("SlidingJoints", "SlidingJoints of nodes", "GuidedJoints", "Controls of strain"):
+    if name in ("SlidingJoints", "SlidingJoints of nodes", "GuidedJoints", "Controls of strain", "Targets"):
         assert other is not None
         assert isinstance(other, Contribution)
         other = aimed(other, state) if isinstance(other, Controls) else other

@@ -44,9 +44,9 @@ def taut_string(
 
     Notes
     -----
-    Equilibrium H z'' = w + sum P_i delta(x - x_i) gives, in each span with the chord z_c, z = z_c - M(x)/H, where M is the
-    bending moment of a beam on two supports under the same loads. Error of the parabola against the catenary:
-    w^3 L^4/(384 H^3), 0.05 mm for 65 m, 15 N/m and 15 kN.
+    Equilibrium H z'' = w + sum P_i delta(x - x_i) gives, in each span with the chord z_c, z = z_c - M(x)/H,
+    where M is the bending moment of a beam on two supports under the same loads. Error of the parabola
+    against the catenary: w^3 L^4/(384 H^3), 0.05 mm for 65 m, 15 N/m and 15 kN.
 
     Examples
     --------
@@ -67,7 +67,7 @@ def taut_string(
         load_moment, load_shear = _point_loads(x, a, b, *loads)
         moment, shear = moment + load_moment, shear + load_shear
     height = support_z[span] + chord * (x - a) - moment / H
-    level = np.where(x < support_x[0], support_z[0], support_z[-1])
+    level = np.asarray(np.where(x < support_x[0], support_z[0], support_z[-1]), dtype=np.float64)
     return np.where(inside, height, level), np.where(inside, chord - shear / H, 0.0)
 
 
@@ -76,9 +76,9 @@ def _point_loads(
 ) -> tuple[FloatArray, FloatArray]:
     """Return moment and shear at x in spans from a to b under the loads that lie in them."""
     x, a, b = x[:, None], a[:, None], b[:, None]
-    P = np.where((at > a) & (at < b), P, 0.0)
-    left = P * (b - at) / (b - a)  # reaction at a
+    load = np.where((at > a) & (at < b), P, 0.0)
+    left = load * (b - at) / (b - a)  # reaction at a
     beyond = x > at
-    moment = left * (x - a) - np.where(beyond, P * (x - at), 0.0)
-    shear = left - np.where(beyond, P, 0.0)
+    moment = left * (x - a) - np.where(beyond, load * (x - at), 0.0)
+    shear = left - np.where(beyond, load, 0.0)
     return moment.sum(axis=1), shear.sum(axis=1)

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 def solve(
     line: Annotated[Path, typer.Argument(metavar="LINE", help="Line file, YAML or JSON.")],
-    method: Annotated[str, typer.Option(help="Form-finding method.")] = "dynamic",
+    method: Annotated[str, typer.Option(help="Form-finding method: direct or dynamic.")] = "direct",
     out: Annotated[
         Path | None,
         typer.Option(help="Folder for the results.", show_default="results/ and the name of LINE"),

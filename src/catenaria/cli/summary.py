@@ -10,7 +10,7 @@ from rich.console import Console
 from rich.table import Table
 
 if TYPE_CHECKING:
-    from catenaria.results import FormResult
+    from catenaria.results import Counters, FormResult
 
 _MOST_ROWS = 24
 
@@ -77,9 +77,13 @@ def _error_lines(result: FormResult) -> list[str]:
 
 
 def _counter_lines(result: FormResult) -> list[str]:
-    return [
-        f"{counter.step}: {counter.simulated_time:.0f} s simulated in {counter.wall_time:.2f} s with "
-        f"{counter.steps} steps, {counter.rejected} rejected, {counter.factorisations} factorisations, "
-        f"{counter.unknowns} unknowns."
-        for counter in result.counters
-    ]
+    return [_counter_line(counter) for counter in result.counters]
+
+
+def _counter_line(work: Counters) -> str:
+    if work.simulated_time == 0.0:
+        return f"{work.step}: {work.steps} Newton iterations in {work.wall_time:.3f} s, {work.unknowns} unknowns."
+    return (
+        f"{work.step}: {work.simulated_time:.0f} s simulated in {work.wall_time:.2f} s with {work.steps} steps, "
+        f"{work.rejected} rejected, {work.factorisations} factorisations, {work.unknowns} unknowns."
+    )

@@ -1,4 +1,4 @@
-"""A first guess of the equilibrium of a wire model: a taut string with its droppers, in place of the straight start."""
+"""A first guess of the equilibrium of a wire model: a taut string with its droppers."""
 
 from __future__ import annotations
 
@@ -17,8 +17,9 @@ def guess_equilibrium(model: WireModel) -> FloatArray:
 
     Notes
     -----
-    Wire: a taut string over its supports, under the droppers' forces or over the wanted heights, uniformly stretched and
-    placed symmetrically. Droppers: straight and stretched by their forces. Multipliers: the forces of that string.
+    Wire: a taut string over its supports, under the droppers' forces or over the wanted heights, uniformly
+    stretched and placed symmetrically. Droppers: straight and stretched by their forces. Multipliers: the
+    forces of that string.
     """
     setup = model.setup
     z = model.system.unknowns.start.copy()

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
+from math import ceil
 
 import numpy as np
 from numpy.typing import NDArray
@@ -69,10 +70,9 @@ def graded_knots(length: float, centres: Sequence[float] | FloatArray, grading: 
         raise InconsistentInputError("a support or clamp lies beyond the end of its wire")
     primary = np.unique(np.concatenate(([0.0], middle, [length])))
     knots = [0.0]
-    for left, right in pairwise(primary):
-        knots.extend(
-            _between(left, right, bool(np.isin(left, middle)), bool(np.isin(right, middle)), grading)
-        )
+    refined = np.isin(primary, middle).tolist()
+    for (left, fine_left), (right, fine_right) in pairwise(zip(primary.tolist(), refined, strict=True)):
+        knots.extend(_between(left, right, fine_left, fine_right, grading))
     return np.array(knots)
 
 
@@ -88,8 +88,9 @@ def _between(left: float, right: float, fine_left: bool, fine_right: bool, gradi
     ]
     result: list[float] = []
     for a, b in pairwise(nodes):
-        count = grading.refine * max(1, int(np.ceil((b - a) / grading.largest - 1e-9)))
-        result.extend(np.linspace(a, b, count + 1)[1:].tolist())
+        count = grading.refine * max(1, ceil((b - a) / grading.largest - 1e-9))
+        result.extend(a + (b - a) * k / count for k in range(1, count))
+        result.append(b)
     return result
 
 

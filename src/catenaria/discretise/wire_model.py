@@ -7,7 +7,7 @@ system of section 3.1.3.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 from numpy.typing import NDArray
@@ -76,7 +76,8 @@ class WireModel:
     @property
     def multipliers(self) -> IntArray:
         """Indices of all multipliers: supports, clamps, free dropper ends, wire ends."""
-        return np.flatnonzero(self.system.unknowns.where(Kind.MULTIPLIER))
+        batches = (self.support_force, self.clamp_force, self.free_force, self.end_force)
+        return np.concatenate([batch.ravel() for batch in batches])
 
     def controls(self, system: System) -> tuple[Controls, Controls]:
         """Return the tension control and the dropper controls with the discrete state of the given system."""
@@ -100,18 +101,23 @@ class _Numbers:
     @classmethod
     def of(cls, setup: WireSetup, unknowns: UnknownsBuilder) -> _Numbers:
         """Number them."""
-        n, m = setup.droppers.x.size, setup.support_x.size
-        start_x = setup.support_x[0] - setup.tail
+        held, hung = setup.support_x, setup.droppers.x
+        start_x = held[0] - setup.tail
+        ends = held[[0, -1]] + [-setup.tail, setup.tail]
         return cls(
-            support_s=unknowns.add(Kind.SLIDING, setup.support_x - start_x),
-            support_force=unknowns.add(Kind.MULTIPLIER, np.zeros((m, 3))),
-            clamp_s=unknowns.add(Kind.SLIDING, setup.droppers.x - start_x),
-            clamp_force=unknowns.add(Kind.MULTIPLIER, np.zeros((n, 3))),
-            free_force=unknowns.add(Kind.MULTIPLIER, np.zeros((n, 3))),
-            end_force=unknowns.add(Kind.MULTIPLIER, np.zeros((2, 3))),
-            pull=unknowns.add(Kind.PARAMETER, np.zeros(1)),
-            dropper_travel=unknowns.add(Kind.PARAMETER, np.zeros(n)),
+            support_s=unknowns.add(Kind.SLIDING, held - start_x, held),
+            support_force=unknowns.add(Kind.MULTIPLIER, np.zeros((held.size, 3)), held),
+            clamp_s=unknowns.add(Kind.SLIDING, hung - start_x, hung),
+            clamp_force=unknowns.add(Kind.MULTIPLIER, np.zeros((hung.size, 3)), hung),
+            free_force=unknowns.add(Kind.MULTIPLIER, np.zeros((hung.size, 3)), hung),
+            end_force=unknowns.add(Kind.MULTIPLIER, np.zeros((2, 3)), ends),
+            pull=unknowns.add(Kind.PARAMETER, np.zeros(1), ends[1]),
+            dropper_travel=unknowns.add(Kind.PARAMETER, np.zeros(hung.size), hung),
         )
+
+    def renumbered(self, number: IntArray) -> _Numbers:
+        """Return the same with final numbers."""
+        return _Numbers(*(number[getattr(self, item.name)] for item in fields(self)))
 
 
 def build_wire_model(setup: WireSetup) -> WireModel:
@@ -120,7 +126,9 @@ def build_wire_model(setup: WireSetup) -> WireModel:
     wire = _straight_wire(setup, unknowns)
     cables = _dropper_cables(setup.droppers, setup.height, unknowns)
     at = _Numbers.of(setup, unknowns)
-    table = unknowns.build()
+    table, number = unknowns.build_along_line()
+    wire, cables = wire.renumbered(number), tuple(cable.renumbered(number) for cable in cables)
+    at = at.renumbered(number)
     elements = CableElements.of([wire, *cables], setup.gauss_points)
     inner = np.array([cable.nodes[0, :3] for cable in cables])
     inertia, damping, gravity = _loads(setup, elements, inner, table.start)
@@ -157,20 +165,17 @@ def _straight_wire(setup: WireSetup, unknowns: UnknownsBuilder) -> Chain:
     position = np.column_stack(
         (first - setup.tail + knots, np.zeros_like(knots), np.full_like(knots, setup.height))
     )
-    nodes = np.array([unknowns.add_node(r, _ALONG) for r in position])
+    nodes = unknowns.add_nodes(position, np.tile(_ALONG, (knots.size, 1)))
     return Chain(nodes, knots, setup.section)
 
 
 def _dropper_cables(setup: DropperSetup, height: float, unknowns: UnknownsBuilder) -> tuple[Chain, ...]:
     """Return one straight vertical cable for each dropper, from the wire up or down."""
     knots = np.linspace(0.0, setup.length, setup.elements + 1)
-    along = _UP if setup.up else -_UP
+    slope = np.tile(_UP if setup.up else -_UP, (knots.size, 1))
+    along = knots[:, None] * slope
     return tuple(
-        Chain(
-            np.array([unknowns.add_node(np.array([x, 0.0, height]) + s * along, along) for s in knots]),
-            knots,
-            setup.section,
-        )
+        Chain(unknowns.add_nodes(np.array([x, 0.0, height]) + along, slope), knots, setup.section)
         for x in setup.x
     )
 

@@ -13,13 +13,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from time import perf_counter
 
-import numpy as np
-from numpy.typing import NDArray
-
-from catenaria.catenary.green_bar import stretch
 from catenaria.discretise.from_line import contact_wire_setup, messenger_wire_setup
-from catenaria.discretise.history import control_names, control_units, history
-from catenaria.discretise.read_back import stage, support_strain_tension, wire_form
+from catenaria.discretise.history import control_names, history
 from catenaria.discretise.restart import start_from, with_full_gravity
 from catenaria.discretise.wire_model import WireModel, build_wire_model
 from catenaria.discretise.wire_setup import WireSetup
@@ -27,12 +22,10 @@ from catenaria.errors import InconsistentInputError
 from catenaria.formfinding.controlled_motion import Motion, move, system_of, tolerances
 from catenaria.formfinding.progress import Listener, Progress
 from catenaria.formfinding.settling import Settled, largest_error
-from catenaria.formfinding.versions import versions
+from catenaria.formfinding.third_step import Rest, clamp_height, foot_force, gather, support_names
 from catenaria.line import Line
-from catenaria.results.form import Controls, Counters, Droppers, FormResult, Stage, Supports
+from catenaria.results.form import Counters, FormResult, History, Stage
 from catenaria.solvers.outcome import Options, Step
-
-FloatArray = NDArray[np.float64]
 
 _STAGES = 3
 _FIRST_STEP = 0.01  # part of the ramp in which next to nothing happens
@@ -73,11 +66,19 @@ class DynamicEquilibrium:
         """
         begin = perf_counter()
         contact = self._step(line, contact_wire_setup(line), 1, start, begin)
-        foot_height = clamp_height(contact)
-        foot_force = -contact.z[contact.model.clamp_force[:, 2]]
-        messenger = self._step(line, messenger_wire_setup(line, foot_force, foot_height), 2, start, begin)
+        force, height = foot_force(_rest(contact)), clamp_height(_rest(contact))
+        messenger = self._step(line, messenger_wire_setup(line, force, height), 2, start, begin)
         self._tell(Progress("lengths", 3, _STAGES, elapsed=perf_counter() - begin))
-        return compose(line, contact, messenger)
+        motions = (contact, messenger)
+        return gather(
+            line,
+            "dynamic",
+            "; ".join(f"{motion.model.setup.name}: {motion.solution.reason}" for motion in motions),
+            _rest(contact),
+            _rest(messenger),
+            tuple(_counters(motion) for motion in motions),
+            tuple(map(_history, motions, support_names(line))),
+        )
 
     def _step(
         self, line: Line, setup: WireSetup, number: int, start: FormResult | None, begin: float
@@ -96,6 +97,7 @@ class DynamicEquilibrium:
                 max_order=options.integrator.max_order,
                 initial_step=_FIRST_STEP * options.ramp_time,
                 max_steps=options.integrator.max_steps,
+                permc_spec="NATURAL",
             ),
             Settled(options.settle.velocity, options.settle.dead_bands, options.settle.remaining_travel),
             options.integrator.max_time,
@@ -135,108 +137,13 @@ class DynamicEquilibrium:
             self.listener(progress)
 
 
-def clamp_height(motion: Motion) -> FloatArray:
-    """Return the height of the wire at every dropper [m]."""
-    feet = np.array([cable.nodes[0, 2] for cable in motion.model.cables])
-    return motion.z[feet]
+def _rest(motion: Motion) -> Rest:
+    tension, droppers = motion.controls
+    return Rest(motion.model, motion.t, motion.z, (tension.law.e0, droppers.law.e0))
 
 
-def compose(line: Line, contact: Motion, messenger: Motion) -> FormResult:
-    """Carry out the third step and gather what was found."""
-    motions = (contact, messenger)
-    names = tuple(support.name for support in line.supports)
-    held = tuple(names[i] for i in line.contact_support_indices)
-    return FormResult(
-        name=line.name,
-        method="dynamic",
-        stop_reason="; ".join(f"{motion.model.setup.name}: {motion.solution.reason}" for motion in motions),
-        droppers=dropper_schedule(line, contact, messenger),
-        wires=tuple(wire_form(motion.model, motion.controls[0], motion.t, motion.z) for motion in motions),
-        supports=_supports(motions, (held, names)),
-        controls=_controls(motions),
-        histories=tuple(
-            history(motion.model, motion.solution, held_by)
-            for motion, held_by in zip(motions, (held, names), strict=True)
-        ),
-        counters=tuple(_counters(motion) for motion in motions),
-        stages=tuple(stage(motion.model, motion.z) for motion in motions),
-        inputs=line.model_dump(mode="json"),
-        versions=versions(),
-    )
-
-
-def dropper_schedule(line: Line, contact: Motion, messenger: Motion) -> Droppers:
-    """Return the third step: lengths from the two clamps' heights, and the lengths to cut."""
-    kind = line.dropper
-    foot, top = clamp_height(contact), clamp_height(messenger)
-    length = top - foot
-    force_bottom = -contact.z[contact.model.clamp_force[:, 2]]
-    force_top = messenger.z[messenger.model.clamp_force[:, 2]]
-    inner_force = 0.5 * (
-        force_top - kind.clamp_mass_top * line.gravity + force_bottom + kind.clamp_mass_bottom * line.gravity
-    )
-    unstressed = length / stretch(inner_force, line.conductors[kind.conductor].EA)
-    span = np.array(line.dropper_span)
-    target = np.array(line.dropper_target_height)
-    return Droppers(
-        span=span + 1,
-        number=np.concatenate(
-            [np.arange(1, np.count_nonzero(span == i) + 1) for i in range(len(line.spans))]
-        ),
-        x=np.array(line.dropper_x),
-        length=length,
-        unstressed_length=unstressed,
-        cut_length=unstressed - kind.clamp_height_top - kind.clamp_height_bottom,
-        force_top=force_top,
-        force_bottom=force_bottom,
-        height=foot,
-        target_height=target,
-        height_error=foot - target,
-        messenger_height=top,
-        force_error=messenger.controls[1].error(messenger.t, messenger.z),
-        contact_coordinate=contact.z[contact.model.clamp_s],
-        messenger_coordinate=messenger.z[messenger.model.clamp_s],
-        on_contact=_on_wire(contact),
-        on_messenger=_on_wire(messenger),
-    )
-
-
-def _on_wire(motion: Motion) -> FloatArray:
-    """Return the forces of droppers and clamps on the wire, shape (n, 3), without those of guides."""
-    force = -motion.z[motion.model.clamp_force]
-    along = 0.0 if motion.model.setup.droppers.guided else 1.0
-    return force * np.array([along, 1.0, 1.0])
-
-
-def _supports(motions: tuple[Motion, ...], names: tuple[tuple[str, ...], ...]) -> Supports:
-    models = [motion.model for motion in motions]
-    force = np.concatenate([motion.z[motion.model.support_force] for motion in motions])
-    return Supports(
-        support=tuple(name for held in names for name in held),
-        wire=tuple(model.setup.name for model in models for _ in model.support_s),
-        x=np.concatenate([model.setup.support_x for model in models]),
-        z=np.concatenate([np.full(model.support_s.size, model.setup.height) for model in models]),
-        force_x=force[:, 0],
-        force_y=force[:, 1],
-        force_z=force[:, 2],
-        tension=np.concatenate([support_strain_tension(motion.model, motion.z) for motion in motions]),
-        sliding_coordinate=np.concatenate([motion.z[motion.model.support_s] for motion in motions]),
-    )
-
-
-def _controls(motions: tuple[Motion, ...]) -> Controls:
-    batches = [(motion, control) for motion in motions for control in motion.controls]
-    target = np.concatenate([control.target for _, control in batches])
-    error = np.concatenate([control.error(motion.t, motion.z) for motion, control in batches])
-    return Controls(
-        name=tuple(name for motion in motions for name in control_names(motion.model)),
-        unit=tuple(unit for motion in motions for unit in control_units(motion.model)),
-        target=target,
-        value=target + error,
-        error=error,
-        dead_band=np.concatenate([np.full(control.target.size, control.law.e0) for _, control in batches]),
-        parameter=np.concatenate([motion.z[control.parameter] for motion, control in batches]),
-    )
+def _history(motion: Motion, support_names: tuple[str, ...]) -> History:
+    return history(motion.model, motion.solution, support_names)
 
 
 def _counters(motion: Motion) -> Counters:

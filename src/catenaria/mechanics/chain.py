@@ -68,6 +68,10 @@ class Chain:
         ):
             raise InconsistentInputError("a cable needs two or more nodes at ascending material coordinates")
 
+    def renumbered(self, number: IntArray) -> Chain:
+        """Return the cable with the final numbers of its unknowns."""
+        return Chain(number[self.nodes], self.knots, self.section)
+
     @property
     def dofs(self) -> IntArray:
         """Indices of r_i, r_i', r_j, r_j' of every element, shape (n_elements, 12)."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Protocol, Self, runtime_checkable
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,9 +36,9 @@ class Contribution(Protocol):
 
 
 @runtime_checkable
-class Relocatable(Protocol):
+class Relocatable(Contribution, Protocol):
     """A contribution with discrete state: the element in which each sliding point is."""
 
-    def relocate(self, z: FloatArray) -> Self | None:
+    def relocate(self, z: FloatArray) -> Contribution | None:
         """Return the contribution with the discrete state that fits z, or None if its own still fits."""
         ...

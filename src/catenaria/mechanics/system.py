@@ -84,9 +84,9 @@ class System:
         patterns = [contribution.pattern() for contribution in self.contributions]
         rows = np.concatenate([rows for rows, _ in patterns])
         columns = np.concatenate([columns for _, columns in patterns])
-        idle = np.setdiff1d(np.arange(self.size), rows)
-        if idle.size:
-            raise InconsistentInputError(f"no contribution has an equation for unknown {idle[0]}")
+        idle = np.bincount(rows, minlength=self.size) == 0
+        if idle.any():
+            raise InconsistentInputError(f"no contribution has an equation for unknown {np.argmax(idle)}")
         return SparsityPattern.of(rows, columns, self.size)
 
     def residual(self, state: State) -> FloatArray:
@@ -113,10 +113,13 @@ class System:
 
     def relocate(self, z: FloatArray) -> System | None:
         """Return the system with its sliding joints in the elements that fit z, or None if they are."""
-        parts: list[Contribution] = []
-        changed = False
-        for part in self.contributions:
-            moved = part.relocate(z) if isinstance(part, Relocatable) else None
-            changed = changed or moved is not None
-            parts.append(part if moved is None else moved)
-        return replace(self, contributions=tuple(parts)) if changed else None
+        moved = {i: part for i, slider in self._sliders if (part := slider.relocate(z)) is not None}
+        if not moved:
+            return None
+        return replace(
+            self, contributions=tuple(moved.get(i, part) for i, part in enumerate(self.contributions))
+        )
+
+    @cached_property
+    def _sliders(self) -> tuple[tuple[int, Relocatable], ...]:
+        return tuple((i, part) for i, part in enumerate(self.contributions) if isinstance(part, Relocatable))

@@ -111,7 +111,7 @@ def attempt(state: State, t_end: float, options: Options) -> State:
     history, k = state.history, state.order
     t, h = _next_time(history.t[0], state.h, t_end, options)
     d0, d = derivative_weights(t, history.t[:k])
-    equations = StepEquations(t, d0, d @ history.y[:k], d @ history.yd[:k])
+    equations = StepEquations(t, d0, d @ history.y[:k], d @ history.yd[:k], options.permc_spec)
     predicted = extrapolation_weights(t, history.t[: k + 1]) @ history.y[: k + 1]
     correction = correct(state.problem, equations, predicted, state.linearisation)
     state = replace(

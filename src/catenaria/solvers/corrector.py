@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from catenaria.solvers.linear import Factorisation, Scaling, factorise, index3_scaling
+from catenaria.solvers.linear import ColumnOrdering, Factorisation, Scaling, factorise, index3_scaling
 from catenaria.solvers.outcome import NO_WORK, Counters
 from catenaria.solvers.problem import DaeProblem, FloatArray
 
@@ -22,12 +22,16 @@ UNKNOWN_RATE = 0.3  # taken for granted at the first iteration, whatever was see
 
 
 class StepEquations(NamedTuple):
-    """y' = d0 y + a, eq. (26), and y'' = d0 y' + b at time t; a and b come from past values."""
+    """y' = d0 y + a, eq. (26), and y'' = d0 y' + b at time t; a and b come from past values.
+
+    `permc_spec` is SuperLU's column ordering for the Newton matrix of the step.
+    """
 
     t: float
     d0: float
     a: FloatArray
     b: FloatArray
+    permc_spec: ColumnOrdering = "COLAMD"
 
     def rates(self, y: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return y' and y''."""
@@ -136,6 +140,7 @@ def _correct_once(
 def _full_newton(problem: DaeProblem, equations: StepEquations, y: FloatArray) -> Correction:
     """Linearise at every iterate, and let corrections grow in between, as they do across corners of a law."""
     sizes: list[float] = []
+    work = NO_WORK
     for iteration in range(1, MAX_FULL + 1):
         work = Counters(
             jacobians=iteration, factorisations=iteration, residuals=iteration, newton_iterations=iteration
@@ -166,7 +171,9 @@ def _linearise(problem: DaeProblem, equations: StepEquations, y: FloatArray) -> 
     d0 = equations.d0
     matrix = problem.jacobian(equations.t, y, *equations.rates(y), d0, d0 * d0)
     scaling = index3_scaling(matrix, problem.order_of, problem.constraint)
-    return Linearisation(problem, d0, factorise(matrix, scaling), _negligible(problem, scaling))
+    return Linearisation(
+        problem, d0, factorise(matrix, scaling, equations.permc_spec), _negligible(problem, scaling)
+    )
 
 
 def _negligible(problem: DaeProblem, scaling: Scaling) -> FloatArray:

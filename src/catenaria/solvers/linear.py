@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal, NamedTuple, Protocol, cast
+from typing import Any, Literal, NamedTuple, Protocol, cast
 
 import numpy as np
 from scipy.sparse import csc_array  # pyright: ignore[reportMissingTypeStubs]
@@ -113,7 +113,7 @@ def factorise(
         raise np.linalg.LinAlgError("the matrix has an entry that is not finite")
     scaled = matrix if scaling is None else _scale(matrix, scaling)
     try:
-        lu = cast("_Lu", splu(scaled, permc_spec=permc_spec))
+        lu = cast("_Lu", splu(cast("Any", scaled), permc_spec=permc_spec))
     except RuntimeError as error:  # SuperLU's only way to say so
         raise np.linalg.LinAlgError("the matrix is singular") from error
     return Factorisation(lu, scaling)

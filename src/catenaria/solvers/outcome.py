@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from catenaria.solvers.bdf_coefficients import extrapolation_weights
+from catenaria.solvers.linear import ColumnOrdering
 from catenaria.solvers.problem import DaeProblem, FloatArray
 
 
@@ -73,6 +74,8 @@ class Options:
         Bounds of the step [s].
     max_steps : int
         Limit of attempted steps.
+    permc_spec : str
+        Column ordering of the sparse LU; ``NATURAL`` for unknowns that are numbered along a line.
     constant_step : float, optional
         Run with this step [s] and, as soon as there is enough history, with order `max_order`; no error test.
     """
@@ -82,6 +85,7 @@ class Options:
     min_step: float = 1e-12
     max_step: float = np.inf
     max_steps: int = 100_000
+    permc_spec: ColumnOrdering = "COLAMD"
     constant_step: float | None = None
 
 

@@ -5,18 +5,19 @@ from __future__ import annotations
 from pathlib import Path
 
 from catenaria.errors import UnsupportedError
+from catenaria.formfinding.direct import Direct
 from catenaria.formfinding.dynamic_equilibrium import DynamicEquilibrium
 from catenaria.formfinding.progress import Listener, Progress
 from catenaria.line import Line, load_line, refuse_unsupported
 from catenaria.mechanics.kernels.warm_up import need_compiling, warm_up
 from catenaria.results.form import FormResult
 
-METHODS = {"dynamic": DynamicEquilibrium}
+METHODS = {"direct": Direct, "dynamic": DynamicEquilibrium}
 
 
 def solve(
     line: Line | str | Path,
-    method: str = "dynamic",
+    method: str = "direct",
     start: FormResult | None = None,
     progress: Listener | None = None,
 ) -> FormResult:
