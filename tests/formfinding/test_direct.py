@@ -1,6 +1,6 @@
-"""The direct method on the paper's three-span line: against independent programs, and against the dynamic method.
+"""The direct method on the paper's three-span line, against independent programs and the dynamic method.
 
-Reference values as in test_dynamic_equilibrium.py; here 0.2 mm and 0.02 N are what the references are good for.
+Reference values as in test_dynamic_equilibrium.py; 0.2 mm and 0.02 N are what they are good for.
 """
 
 from __future__ import annotations

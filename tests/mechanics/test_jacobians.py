@@ -20,8 +20,8 @@ import catenaria
 from catenaria.mechanics.chain import Chain, Section
 from catenaria.mechanics.contribution import Contribution, Relocatable
 from catenaria.mechanics.controls.control import Controls, Measure
-from catenaria.mechanics.controls.target import Targets
 from catenaria.mechanics.controls.measures import DropperForce, Height, ReactionTension, StrainTension
+from catenaria.mechanics.controls.target import Targets
 from catenaria.mechanics.controls.velocity_law import VelocityLaw
 from catenaria.mechanics.elements.cable import CableElements
 from catenaria.mechanics.joints.fixed import FixedJoints, normals

@@ -82,8 +82,9 @@ def _counter_lines(result: FormResult) -> list[str]:
 
 def _counter_line(work: Counters) -> str:
     if work.simulated_time == 0.0:
-        return f"{work.step}: {work.steps} Newton iterations in {work.wall_time:.3f} s, {work.unknowns} unknowns."
+        course = f"{work.steps} Newton iterations in {work.wall_time:.3f} s"
+        return f"{work.step}: {course}, {work.unknowns} unknowns."
     return (
-        f"{work.step}: {work.simulated_time:.0f} s simulated in {work.wall_time:.2f} s with {work.steps} steps, "
-        f"{work.rejected} rejected, {work.factorisations} factorisations, {work.unknowns} unknowns."
+        f"{work.step}: {work.simulated_time:.0f} s simulated in {work.wall_time:.2f} s with {work.steps} "
+        f"steps, {work.rejected} rejected, {work.factorisations} factorisations, {work.unknowns} unknowns."
     )

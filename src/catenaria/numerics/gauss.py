@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 from numpy.typing import NDArray
 
 FloatArray = NDArray[np.float64]
 
 
+@cache
 def gauss_legendre(count: int) -> tuple[FloatArray, FloatArray]:
     """Return points and weights that integrate polynomials of degree 2 count - 1 exactly.
 
@@ -19,7 +22,7 @@ def gauss_legendre(count: int) -> tuple[FloatArray, FloatArray]:
     Returns
     -------
     points, weights : FloatArray, shape (count,)
-        Points in (-1, 1), ascending, and weights that add up to 2.
+        Points in (-1, 1), ascending, and weights that add up to 2; read-only.
 
     Raises
     ------
@@ -33,4 +36,6 @@ def gauss_legendre(count: int) -> tuple[FloatArray, FloatArray]:
     True
     """
     points, weights = np.polynomial.legendre.leggauss(count)
-    return np.asarray(points, dtype=np.float64), np.asarray(weights, dtype=np.float64)
+    points.setflags(write=False)
+    weights.setflags(write=False)
+    return points, weights

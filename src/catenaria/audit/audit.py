@@ -1,0 +1,64 @@
+"""The audit of a result: every number that a fitter or a researcher relies on, checked by other means."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from catenaria.audit import equilibrium, lengths
+from catenaria.audit.allowance import allowance
+from catenaria.audit.free_wire import free_wires
+from catenaria.audit.stated import read_inputs
+from catenaria.audit.targets import target_checks
+from catenaria.audit.verdict import Audit, Check, conclude
+from catenaria.results.form import FormResult
+
+
+def audit_result(result: FormResult) -> Audit:
+    r"""Check the geometry, lengths and forces of a result by themselves.
+
+    Parameters
+    ----------
+    result : FormResult
+        Of any method. What the line file asked for is taken from the echo in `result.inputs`.
+
+    Returns
+    -------
+    Audit
+        `passed`, the `findings` in words, and one row for each check.
+
+    Raises
+    ------
+    InconsistentInputError
+        If the result lacks an entry for one of the wires, supports or droppers of its line.
+
+    Notes
+    -----
+    Nothing is shared with what found the result: wires are cubics in other terms, energy (8) is integrated by
+    Clenshaw-Curtis quadrature and differentiated by complex step. Equilibrium must hold to 1e-6 of the
+    largest tension, lengths to 1e-7 m, targets to the bands that the result states.
+
+    Not looked at: sags, smallest, largest and mean tensions, histories, counters.
+
+    References
+    ----------
+    Yang et al. 2017, Multibody Syst Dyn 39, 221-247, eqs. (1)-(10), (17), (23). W. Squire, G. Trapp, Using
+    complex variables to estimate derivatives of real functions, SIAM Review 40 (1998) 110-112.
+    """
+    return conclude(tuple(_checks(result)))
+
+
+def _checks(result: FormResult) -> Iterator[Check]:
+    stated = read_inputs(result.inputs)
+    wires = free_wires(result, stated)
+    allowed = allowance(result, wires)
+    tolerance = max(wire.force_tolerance for wire in wires)
+    yield equilibrium.node_check(wires)
+    for wire in wires:
+        yield from equilibrium.wire_checks(wire, stated.droppers.guided)
+        yield from lengths.wire_checks(wire, result.supports)
+    yield from equilibrium.dropper_checks(
+        result.droppers, stated.droppers, stated.gravity, allowed.force, tolerance
+    )
+    yield equilibrium.line_check(wires, result.droppers, stated, allowed.force)
+    yield from lengths.dropper_checks(wires, result.droppers, stated)
+    yield from target_checks(result, stated, wires, allowed)

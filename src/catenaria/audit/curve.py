@@ -1,0 +1,111 @@
+"""A wire as the curve that its nodes describe: cubic Hermite pieces (1)-(5), written in t = l/L of [0, 1]."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from catenaria.audit.quadrature import clenshaw_curtis
+from catenaria.errors import InconsistentInputError
+
+FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.int64]
+
+# Powers of t in the four shape functions, which belong to r_i, L r_i', r_j, L r_j'.
+_CUBICS = np.array(
+    [[1.0, 0.0, -3.0, 2.0], [0.0, 1.0, -2.0, 1.0], [0.0, 0.0, 3.0, -2.0], [0.0, 0.0, -1.0, 1.0]]
+)
+_D = np.diag([1.0, 2.0, 3.0], -1)  # takes powers of t to those of the derivative by t
+_DERIVATIVES = (_CUBICS @ _D, _CUBICS @ _D @ _D)
+
+
+@dataclass(frozen=True)
+class Points:
+    """Points on a curve: element, shape functions (n, 4) and r, r', r'' (n, 3)."""
+
+    element: IntArray
+    N: FloatArray
+    r: FloatArray
+    r1: FloatArray
+    r2: FloatArray
+
+
+@dataclass(frozen=True)
+class Curve:
+    """A wire's configuration.
+
+    Parameters
+    ----------
+    s : FloatArray, shape (n,)
+        Material coordinates of the nodes, ascending [m].
+    r, r1 : FloatArray, shape (n, 3)
+        Positions [m] and slopes of the nodes.
+
+    Raises
+    ------
+    InconsistentInputError
+        If shapes do not fit or the coordinates do not ascend.
+    """
+
+    s: FloatArray
+    r: FloatArray
+    r1: FloatArray
+
+    def __post_init__(self) -> None:
+        shape = (self.s.size, 3)
+        if self.s.size < 2 or self.r.shape != shape or self.r1.shape != shape or np.any(np.diff(self.s) <= 0):
+            raise InconsistentInputError("a wire of the result needs nodes at ascending coordinates")
+
+    @property
+    def L(self) -> FloatArray:  # noqa: N802, the symbol of the paper
+        """Unstressed length of every element [m]."""
+        return np.diff(self.s)
+
+    @property
+    def q(self) -> FloatArray:
+        """Coordinates r_i, r_i', r_j, r_j' of every element, shape (n - 1, 4, 3)."""
+        return np.stack((self.r[:-1], self.r1[:-1], self.r[1:], self.r1[1:]), axis=1)
+
+    def at(self, s: FloatArray) -> Points:
+        """Return the points with the given material coordinates."""
+        element = np.clip(np.searchsorted(self.s, s, side="right") - 1, 0, self.s.size - 2)
+        L = self.L[element]
+        t = (s - self.s[element]) / L
+        N, N1, N2 = (shape_functions(t, L, order) for order in range(3))
+        q = self.q[element]
+        r, r1, r2 = (np.einsum("nk,nki->ni", functions, q) for functions in (N, N1, N2))
+        return Points(element, N, r, r1, r2)
+
+    def stretched_length(self, start: float, end: float) -> float:
+        """Return the deformed length between two material coordinates [m]."""
+        points, weights = clenshaw_curtis(12)
+        inner = self.s[(self.s > start) & (self.s < end)]
+        knots = np.concatenate(([start], inner, [end]))
+        L = np.diff(knots)
+        stretch = np.linalg.norm(self.at((knots[:-1, None] + L[:, None] * points).ravel()).r1, axis=1)
+        return float(L @ (stretch.reshape(L.size, -1) @ weights))
+
+
+def shape_functions(t: FloatArray, L: FloatArray, order: int) -> FloatArray:
+    """Return the shape functions or a derivative of them by arc length.
+
+    Parameters
+    ----------
+    t : FloatArray
+        l/L, from 0 to 1 in an element.
+    L : FloatArray, broadcastable to t
+        Unstressed lengths [m].
+    order : int
+        0, 1 or 2 derivatives.
+
+    Returns
+    -------
+    FloatArray, shape (*t.shape, 4)
+        In the order of r_i, r_i', r_j, r_j'.
+    """
+    powers = _CUBICS if order == 0 else _DERIVATIVES[order - 1]
+    values = (t[..., None] ** np.arange(4)) @ powers.T
+    length = (L * np.ones_like(t))[..., None]
+    return values * length ** (np.array([0.0, 1.0, 0.0, 1.0]) - order)

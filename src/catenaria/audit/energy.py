@@ -1,0 +1,99 @@
+"""Strain energy and weight of a wire, and the forces that hold every node in balance with them."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from catenaria.audit.curve import Curve, shape_functions
+from catenaria.audit.quadrature import clenshaw_curtis
+from catenaria.audit.stated import Conductor
+
+FloatArray = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
+
+_INTERVALS = 12  # 13 points: exact to degree 13, where EA eps^2 has degree 8
+_STEP = 1e-30  # complex steps have no cancellation, so the step may vanish against everything
+
+
+def elastic_force(curve: Curve, conductor: Conductor) -> FloatArray:
+    r"""Return dU/dq of every element, the generalised forces that deform it.
+
+    Parameters
+    ----------
+    curve : Curve
+        Nodes of the wire.
+    conductor : Conductor
+        EA and EJ.
+
+    Returns
+    -------
+    FloatArray, shape (n_elements, 4, 3)
+        Forces on r_i and r_j [N], moments per slope on r_i' and r_j' [N m].
+
+    Notes
+    -----
+    Energy (8) with Green strain (9) and curvature (10), differentiated by complex step (Squire & Trapp
+    1998): :math:`\partial U/\partial q_k = \mathrm{Im}\,U(q + ihe_k)/h`, one pass for each of the twelve
+    coordinates of all elements at once. No derivative is written down, so none can be wrong.
+    """
+    t, weights = clenshaw_curtis(_INTERVALS)
+    L = curve.L[:, None]
+    N1, N2 = (shape_functions(np.broadcast_to(t, (L.size, t.size)), L, order) for order in (1, 2))
+    q, weights = curve.q, weights * L
+    r1, r2 = N1 @ q, N2 @ q
+    force = np.empty_like(q)
+    for k in range(4):
+        for i in range(3):
+            step = np.zeros(3, dtype=np.complex128)
+            step[i] = 1j * _STEP
+            density = _energy_density(r1 + N1[..., k, None] * step, r2 + N2[..., k, None] * step, conductor)
+            force[:, k, i] = np.sum(density.imag * weights, axis=1) / _STEP
+    return force
+
+
+def weight(curve: Curve, rhoA: float, gravity: float) -> FloatArray:
+    """Return the generalised forces of gravity (17) on every element, shape (n_elements, 4, 3)."""
+    t, weights = clenshaw_curtis(_INTERVALS)
+    L = curve.L[:, None]
+    N = shape_functions(np.broadcast_to(t, (L.size, t.size)), L, 0)
+    force = np.zeros_like(curve.q)
+    force[:, :, 2] = -rhoA * gravity * np.einsum("eg,egk->ek", weights * L, N)
+    return force
+
+
+def nodal_residual(
+    curve: Curve, conductor: Conductor, gravity: float, joint_s: FloatArray, joint_force: FloatArray
+) -> FloatArray:
+    """Return what is missing to the balance of every node: dU/dq - weight - forces of joints.
+
+    Parameters
+    ----------
+    curve, conductor, gravity
+        The wire and its load.
+    joint_s : FloatArray, shape (m,)
+        Material coordinates at which supports, droppers and ends hold the wire [m].
+    joint_force : FloatArray, shape (m, 3)
+        Their forces on the wire [N].
+
+    Returns
+    -------
+    FloatArray, shape (n_nodes, 2, 3)
+        Forces on r [N] and moments per slope on r' [N m].
+    """
+    element = elastic_force(curve, conductor) - weight(curve, conductor.rhoA, gravity)
+    at = curve.at(joint_s)
+    np.subtract.at(element, at.element, at.N[:, :, None] * joint_force[:, None, :])
+    residual = np.zeros((curve.s.size, 2, 3))
+    residual[:-1] += element[:, :2]
+    residual[1:] += element[:, 2:]
+    return residual
+
+
+def _energy_density(r1: ComplexArray, r2: ComplexArray, conductor: Conductor) -> ComplexArray:
+    """Return (EA eps^2 + EJ kappa^2)/2; products without conjugates, which are not analytic."""
+    a = np.sum(r1 * r1, axis=-1)
+    x, y, z = np.moveaxis(r1, -1, 0)
+    u, v, w = np.moveaxis(r2, -1, 0)
+    cross = (y * w - z * v) ** 2 + (z * u - x * w) ** 2 + (x * v - y * u) ** 2
+    return 0.5 * conductor.EA * (0.5 * (a - 1.0)) ** 2 + 0.5 * conductor.EJ * cross / a**3

@@ -1,0 +1,140 @@
+"""A wire cut free: its curve, and the forces of supports, droppers and tensioning devices on it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from catenaria.audit.curve import Curve
+from catenaria.audit.energy import nodal_residual
+from catenaria.audit.stated import Stated, StatedWire
+from catenaria.errors import InconsistentInputError
+from catenaria.results.form import FormResult, WireForm
+
+FloatArray = NDArray[np.float64]
+
+_RELATIVE = 1e-6  # of the largest tension: 0.015 N of 15 kN, a tenth of what forces are wanted to
+_AT_JOINT = 0.02  # m: nodes are put where joints will be, to millimetres
+_ROUNDING = 8.0  # units in the last place that the two positions of an element may be off together
+
+
+@dataclass(frozen=True)
+class FreeWire:
+    """A wire of a result as a free body.
+
+    Attributes
+    ----------
+    stated : StatedWire
+        What the line file says of it.
+    form : WireForm
+        What the result says of it.
+    curve : Curve
+        Its configuration.
+    support_s, clamp_s : FloatArray, shape (m,), (n,)
+        Material coordinates at supports and droppers [m].
+    support_force, clamp_force : FloatArray, shape (m, 3), (n, 3)
+        Forces on the wire there [N].
+    gravity : float
+        Acceleration [m/s^2].
+    largest_tension : float
+        Of the whole line, as prescribed [N].
+    """
+
+    stated: StatedWire
+    form: WireForm
+    curve: Curve
+    support_s: FloatArray
+    support_force: FloatArray
+    clamp_s: FloatArray
+    clamp_force: FloatArray
+    gravity: float
+    largest_tension: float
+
+    @property
+    def joint_s(self) -> FloatArray:
+        """Material coordinates of supports, droppers, start and end [m]."""
+        return np.concatenate((self.support_s, self.clamp_s, self.curve.s[[0, -1]]))
+
+    @property
+    def joint_force(self) -> FloatArray:
+        """Their forces on the wire, shape (m + n + 2, 3) [N]."""
+        return np.concatenate((self.support_force, self.clamp_force, -self.form.end_force))
+
+    @property
+    def joint_name(self) -> tuple[str, ...]:
+        """Their names."""
+        supports = (f"support {name}" for name in self.stated.support_name)
+        droppers = (f"dropper {i + 1}" for i in range(self.clamp_s.size))
+        return (*supports, *droppers, "its start", "its end")
+
+    @property
+    def force_tolerance(self) -> float:
+        """Force that may be missing to a balance [N].
+
+        Notes
+        -----
+        Positions are known to half a unit in the last place, which a short stiff element turns into EA u/L:
+        some micronewtons near the origin of the chainage, 10 mN at 100 km of it.
+        """
+        unit = float(np.finfo(np.float64).eps * np.max(np.abs(self.curve.r)))
+        stiffest = float(self.stated.conductor.EA / self.curve.L.min())
+        return _RELATIVE * self.largest_tension + _ROUNDING * unit * stiffest
+
+    @cached_property
+    def residual(self) -> FloatArray:
+        """Residual of every node: forces [N] and moments per slope [N m], shape (n, 2, 3)."""
+        return nodal_residual(self.curve, self.stated.conductor, self.gravity, self.joint_s, self.joint_force)
+
+    def place(self, s: float) -> str:
+        """Say between or at which joints a material coordinate is."""
+        away = (self.joint_s - s).tolist()
+        nearest = min(range(len(away)), key=lambda i: abs(away[i]))
+        if abs(away[nearest]) < _AT_JOINT:
+            return self.joint_name[nearest]
+        before = max((i for i, d in enumerate(away) if d < 0.0), key=away.__getitem__)
+        after = min((i for i, d in enumerate(away) if d > 0.0), key=away.__getitem__)
+        return f"s = {s:.3f} m, between {self.joint_name[before]} and {self.joint_name[after]}"
+
+
+def free_wires(result: FormResult, stated: Stated) -> tuple[FreeWire, FreeWire]:
+    """Cut the two wires of a result free.
+
+    Raises
+    ------
+    InconsistentInputError
+        If the result does not have one entry for each wire, support and dropper of its line.
+    """
+    droppers = result.droppers
+    if len(result.wires) != 2 or len(result.stages) != 2 or droppers.x.size != stated.droppers.x.size:
+        raise InconsistentInputError("the result does not hold the two wires and the droppers of its line")
+    coordinates = (droppers.contact_coordinate, droppers.messenger_coordinate)
+    forces = (droppers.on_contact, droppers.on_messenger)
+    contact, messenger = (
+        _free_wire(result, stated, i, coordinates[i], forces[i]) for i in range(len(stated.wires))
+    )
+    return contact, messenger
+
+
+def _free_wire(
+    result: FormResult, stated: Stated, i: int, clamp_s: FloatArray, clamp_force: FloatArray
+) -> FreeWire:
+    wire, stage, table = stated.wires[i], result.stages[i], result.supports
+    held = [k for k, name in enumerate(table.wire) if name == wire.name]
+    if tuple(table.support[k] for k in held) != wire.support_name or result.wires[i].name != wire.name:
+        raise InconsistentInputError(f"the result does not have the supports of the {wire.name} in order")
+    nodes = slice(0, int(stage.node_count[0]))  # the other chains are dropper cables of the model
+    force = np.column_stack((table.force_x, table.force_y, table.force_z))[held]
+    return FreeWire(
+        stated=wire,
+        form=result.wires[i],
+        curve=Curve(stage.s[nodes], stage.position[nodes], stage.slope[nodes]),
+        support_s=table.sliding_coordinate[held],
+        support_force=-force,
+        clamp_s=clamp_s,
+        clamp_force=clamp_force,
+        gravity=stated.gravity,
+        largest_tension=max(other.tension for other in stated.wires),
+    )
