@@ -35,8 +35,6 @@ micro- = 1e-6 = µ- = μ- = u-
 metre = [length] = m = meter
 second = [time] = s
 gram = [mass] = g
-radian = [] = rad
-degree = 3.14159265358979323846 / 180 * radian = deg = °
 minute = 60 * second = min
 hour = 3600 * second = h
 tonne = 1000 * kilogram = t
@@ -45,12 +43,22 @@ pascal = newton / metre ** 2 = Pa
 kilogram_force = 9.80665 * newton = kgf
 """
 
-_TERM: Final = r"[A-Za-zµμ°_]+(?:(?:\^|\*\*)-?[1-9]|[²³⁴])?"
+_TERM: Final = r"[A-Za-zµμ_]+(?:(?:\^|\*\*)-?[1-9]|[²³⁴2-4])?"
 _QUANTITY: Final = re.compile(
     r"(?P<number>[-+]?(?:\d{1,40}\.?\d{0,40}|\.\d{1,40})(?:[eE][-+]?\d{1,3})?)"
     rf"\s*(?P<unit>(?:1\s*/\s*)?{_TERM}(?:(?:\s*[*·/]\s*|\s+){_TERM})*)?",
     re.ASCII,
 )
+_DECIMAL_COMMA: Final = re.compile(r"[-+]?\d*,\d.*", re.ASCII)
+_BARE_POWER: Final = re.compile(r"(?<=[A-Za-zµμ])(?=[2-4])")
+_MOMENT: Final = re.compile(r"([kM]?N)(?=m{1,2}(?![A-Za-z]))")
+
+# By lower case; where two units differ in capital letters only (mPa, MPa), the one that lines are built with.
+_SPELLED: Final = {
+    (prefix + symbol).lower(): prefix + symbol
+    for symbol in ("t", "min", "h", "s", "g", "m", "Pa", "N")
+    for prefix in ("m", "c", "da", "G", "M", "k", "")
+}
 
 
 @dataclass(frozen=True)
@@ -97,17 +105,33 @@ def _registry() -> Any:
 
 @lru_cache(maxsize=1024)
 def _factor(unit: str, dimension: Dimension) -> Fraction:
-    """Size of `unit` in SI, exactly."""
+    """Size of `unit` in SI, exactly, or a ValueError that says what is wrong with it."""
     from pint import DimensionalityError, UndefinedUnitError
 
-    registry = _registry()
     try:
-        source, target = (registry.parse_units(text.replace("·", "*")) for text in (unit, dimension.unit))
-        return Fraction(registry.convert(Fraction(1), source, target))
+        return _convert(unit, dimension)
     except UndefinedUnitError:
-        raise ValueError(f'{dimension}; the unit "{unit}" is not known') from None
+        pass
     except DimensionalityError:
         raise ValueError(str(dimension)) from None
+    unknown = f'{dimension}; the unit "{unit}" is not known'
+    meant = re.sub("[A-Za-z]+", lambda word: _SPELLED.get(word[0].lower(), word[0]), unit)
+    try:
+        _convert(meant, dimension)
+    except (UndefinedUnitError, DimensionalityError):
+        raise ValueError(unknown) from None
+    raise ValueError(f"{unknown} (did you mean {meant}?)")
+
+
+def _convert(unit: str, dimension: Dimension) -> Fraction:
+    registry = _registry()
+    source, target = (registry.parse_units(_plain(text)) for text in (unit, dimension.unit))
+    return Fraction(registry.convert(Fraction(1), source, target))
+
+
+def _plain(unit: str) -> str:
+    """Write out what engineers leave out: ``Nm2`` is ``N*m^2``, and never the square of ``Nm``."""
+    return _BARE_POWER.sub("^", _MOMENT.sub(r"\1*", unit.replace("·", "*"), count=1))
 
 
 def to_si(value: object, dimension: Dimension) -> float:
@@ -164,7 +188,8 @@ def _to_real(value: object, dimension: Dimension) -> Real:
 def _to_fraction(text: str, dimension: Dimension) -> Fraction:
     match = _QUANTITY.fullmatch(text.strip())
     if match is None:
-        raise ValueError(str(dimension))
+        comma = "; decimals stand after a point: use a point, not a comma"
+        raise ValueError(f"{dimension}{comma if _DECIMAL_COMMA.fullmatch(text.strip()) else ''}")
     number = Fraction(match["number"])
     if match["unit"] is None:
         return number
@@ -229,14 +254,12 @@ VELOCITY: Final = Dimension("a velocity", "m/s", "0.2 mm/s")
 ACCELERATION: Final = Dimension("an acceleration", "m/s^2", "9.81 m/s^2")
 TIME: Final = Dimension("a time", "s", "5 s")
 FREQUENCY: Final = Dimension("a rate", "1/s", "0.02 1/s")
-ANGLE: Final = Dimension("an angle", "rad", "12 deg")
 SLOPE: Final = Dimension("a slope", "", "5 mm/m")
 
 Length = Annotated[float, QuantityType(LENGTH)]
 NonNegativeLength = Annotated[float, QuantityType(LENGTH, "non-negative")]
 PositiveLength = Annotated[float, QuantityType(LENGTH, "positive")]
 PositiveArea = Annotated[float, QuantityType(AREA, "positive")]
-Force = Annotated[float, QuantityType(FORCE)]
 PositiveForce = Annotated[float, QuantityType(FORCE, "positive")]
 PositivePressure = Annotated[float, QuantityType(PRESSURE, "positive")]
 PositiveDensity = Annotated[float, QuantityType(DENSITY, "positive")]
@@ -249,5 +272,4 @@ PositiveAcceleration = Annotated[float, QuantityType(ACCELERATION, "positive")]
 NonNegativeTime = Annotated[float, QuantityType(TIME, "non-negative")]
 PositiveTime = Annotated[float, QuantityType(TIME, "positive")]
 NonNegativeFrequency = Annotated[float, QuantityType(FREQUENCY, "non-negative")]
-Angle = Annotated[float, QuantityType(ANGLE)]
 Slope = Annotated[float, QuantityType(SLOPE)]

@@ -67,7 +67,7 @@ def swing(g: float = G, periods: float = 3.0, steps: int = 400) -> tuple[Pendulu
     """Return the motion from rest at the amplitude, constant steps, order 2."""
     model = pendulum(g)
     start = model.system.unknowns.start
-    problem = MotionProblem(model.system, Tolerances(1e-6, 1e-10, 1e-4))
+    problem = MotionProblem(model.system, Tolerances(1e-6, 1e-6, 1e-10, 1e-4))
     options = Options(max_order=2, constant_step=PERIOD / steps)
     return model, integrate(problem, Start(0.0, start, np.zeros_like(start)), periods * PERIOD, options)
 

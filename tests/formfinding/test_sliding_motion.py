@@ -33,7 +33,7 @@ def setup(tension: float, largest: float) -> WireSetup:
         target=np.zeros(2),
         law=VelocityLaw(2e-3, 1e-6, 1e-3),
         foot_height=np.zeros(2),
-        clamp_weight=0.0,
+        clamps_mass=0.0,
     )
     return WireSetup(
         name="contact wire",
@@ -53,7 +53,7 @@ def setup(tension: float, largest: float) -> WireSetup:
 
 
 def moved(model: WireModel) -> Motion:
-    tolerances, settled = Tolerances(1e-3, 1e-6, 1e-3), Settled(1e-3, 1.1, 1e-7)
+    tolerances, settled = Tolerances(1e-3, 1e-3, 1e-6, 1e-3), Settled(1e-3, 1.1, 1e-7)
     return move(model, tolerances, Options(), settled, 1e5)
 
 

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from scipy.optimize import brentq
@@ -239,6 +242,21 @@ def test_masses_follow_a_chain_that_turns(damping):
     assert np.abs(result.y - relax(chain, start).y).max() < 2e-6
 
 
+def test_after_a_peak_or_growth_the_motion_begins_from_rest():
+    """A first half step v = -f/(2 m) has the kinetic energy -v'f/4, and no later step has."""
+    chain = Directed(20, 66.0, 1e7, scale=1.0)  # far above round-off
+    steps = []
+    start = chain.straight() + 1e-2 * np.sin(np.arange(chain.size))
+    options = RelaxationOptions(mass_interval=10**6, record_interval=1)
+    result = relax(chain, start, options, [steps.append])
+    begun = 0
+    for before, after in pairwise(steps):
+        work = -(after.y - before.y) @ chain.residual(before.y)
+        begun += after.kinetic_energy == pytest.approx(0.25 * work, rel=1e-5, abs=0.0)
+    assert result.restarts > 0
+    assert begun == 1 + result.restarts + result.peaks.size
+
+
 def test_masses_that_follow_the_stiffness_save_iterations():
     chain = Directed(60, 64.93, 1.2e7)
     start = chain.straight() + np.random.default_rng(0).normal(size=chain.size)
@@ -275,23 +293,26 @@ def test_the_observed_frequency_is_a_rayleigh_quotient():
 
 
 def rest_of_oscillator(omega, back):
-    """Return where an oscillator released at 1 first rests, in units of its longest step."""
+    """Return where an oscillator released at 1 first rests, in units of its longest step, and its energy."""
     motion, longest = Motion(np.ones(1), np.ones(1)), 0.0
     while True:
         motion.observe(omega**2 * motion.y)
         before = motion.y[0]
-        if advance_kinetically(motion) is not None:
-            return abs(motion.y[0] if back else before) / longest
+        energy = advance_kinetically(motion)
+        if energy is not None:
+            return abs(motion.y[0] if back else before) / longest, energy
         longest = max(longest, abs(motion.velocity[0]))
 
 
 @pytest.mark.parametrize("omega", [0.01, 0.0312, 0.1, 0.27])
 def test_kinetic_damping_rests_within_half_a_step_of_the_peak(omega):
-    assert rest_of_oscillator(omega, back=True) <= 0.5
+    distance, energy = rest_of_oscillator(omega, back=True)
+    assert distance <= 0.5
+    assert energy == pytest.approx(0.5 * omega**2, rel=omega**2)  # what its spring had stored
 
 
 def test_negative_control_without_going_back_it_rests_farther_off():
-    assert max(rest_of_oscillator(omega, back=False) for omega in (0.01, 0.0312, 0.1, 0.27)) > 0.5
+    assert max(rest_of_oscillator(omega, back=False)[0] for omega in (0.01, 0.0312, 0.1, 0.27)) > 0.5
 
 
 def test_viscous_damping_is_critical():
@@ -356,15 +377,18 @@ def test_an_equilibrium_is_recognised_at_once():
     assert (result.y == problem.known).all()
 
 
-def test_a_problem_may_reuse_its_array():
+@pytest.mark.parametrize("damping", DAMPINGS)
+def test_a_problem_may_reuse_its_array(damping):
     class Reusing(Linear):
+        buffer = np.empty(10)
+
         def residual(self, y):
             return np.subtract(self.K @ y, self.load, out=self.buffer)
 
     fresh = laplacian(10)
     reusing = Reusing(fresh.K, fresh.known)
-    reusing.buffer = np.empty(10)
-    assert (relax(reusing, np.zeros(10)).y == relax(fresh, np.zeros(10)).y).all()
+    once, again = (relax(problem, np.zeros(10), RelaxationOptions(damping)) for problem in (fresh, reusing))
+    assert (once.y == again.y).all()
 
 
 @pytest.mark.parametrize("bad", [np.nan, np.inf])
@@ -394,9 +418,10 @@ def test_shapes_must_fit():
 
 
 @pytest.mark.parametrize("option", ["mass_factor", "mass_interval", "max_iterations", "record_interval"])
-def test_options_must_be_positive(option):
+@pytest.mark.parametrize("value", [0, -1])
+def test_options_must_be_positive(option, value):
     with pytest.raises(InconsistentInputError, match="positive"):
-        RelaxationOptions(**{option: 0})
+        replace(RelaxationOptions(), **{option: value})
 
 
 def test_row_sums_of_a_sparse_matrix():

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -41,13 +40,14 @@ def allowance(result: FormResult, wires: tuple[FreeWire, FreeWire]) -> Allowance
 
     Notes
     -----
-    A method without dead bands meets its targets. The dynamic method stops when every error is within a
-    factor of its dead band, 1.1 by default, *or* when no control would travel farther than a stated distance
-    d until it is in its band. Both are in the echo of the line file. A distance d is worth d of height,
+    A method without dead bands meets its targets, one with bands ends within them. The dynamic method stops
+    when every error is within a factor of its dead band, 1.1 by default, *or* when no control would travel
+    farther than a stated distance d until it is in its band. Both are in the echo of the line file. A
+    distance d is worth d of height,
     :math:`2\,EA\,d/L` of tension when both ends move, and :math:`2\,T d (1/l_1 + 1/l_2)` of dropper force
     when the wire is bent between joints at the distances l_1, l_2 and neighbours move the opposite way.
     """
-    factor, travel = _stop_criteria(result.inputs)
+    factor, travel = _stop_criteria(result)
     n = result.droppers.x.size
     bands = dict(zip(result.controls.name, result.controls.dead_band.tolist(), strict=True))
 
@@ -66,8 +66,11 @@ def allowance(result: FormResult, wires: tuple[FreeWire, FreeWire]) -> Allowance
     )
 
 
-def _stop_criteria(inputs: dict[str, Any]) -> tuple[float, float]:
-    settle = inputs["solver"]["dynamic"]["settle"]
+def _stop_criteria(result: FormResult) -> tuple[float, float]:
+    """Return how many bands an error and how many metres a control may end away, after the method's rule."""
+    if result.method != "dynamic":
+        return 1.0, 0.0
+    settle = result.inputs["solver"]["dynamic"]["settle"]
     return float(settle["dead_bands"]), float(settle["remaining_travel"])
 
 

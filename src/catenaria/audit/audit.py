@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from catenaria.audit import equilibrium, lengths
+from catenaria.audit import equilibrium, internal_forces, lengths
 from catenaria.audit.allowance import allowance
 from catenaria.audit.free_wire import free_wires
 from catenaria.audit.stated import read_inputs
@@ -37,7 +37,8 @@ def audit_result(result: FormResult) -> Audit:
     Clenshaw-Curtis quadrature and differentiated by complex step. Equilibrium must hold to 1e-6 of the
     largest tension, lengths to 1e-7 m, targets to the bands that the result states.
 
-    Not looked at: sags, smallest, largest and mean tensions, histories, counters.
+    Not looked at: sags, smallest, largest and mean tensions, what the result keeps for a restart besides the
+    wires' nodes, histories, counters.
 
     References
     ----------
@@ -55,6 +56,8 @@ def _checks(result: FormResult) -> Iterator[Check]:
     yield equilibrium.node_check(wires)
     for wire in wires:
         yield from equilibrium.wire_checks(wire, stated.droppers.guided)
+        yield from internal_forces.profile_checks(wire)
+        yield internal_forces.support_check(wire, result.supports)
         yield from lengths.wire_checks(wire, result.supports)
     yield from equilibrium.dropper_checks(
         result.droppers, stated.droppers, stated.gravity, allowed.force, tolerance

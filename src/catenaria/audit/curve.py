@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -68,9 +69,9 @@ class Curve:
         """Coordinates r_i, r_i', r_j, r_j' of every element, shape (n - 1, 4, 3)."""
         return np.stack((self.r[:-1], self.r1[:-1], self.r[1:], self.r1[1:]), axis=1)
 
-    def at(self, s: FloatArray) -> Points:
-        """Return the points with the given material coordinates."""
-        element = np.clip(np.searchsorted(self.s, s, side="right") - 1, 0, self.s.size - 2)
+    def at(self, s: FloatArray, side: Literal["left", "right"] = "right") -> Points:
+        """Return the points with the given material coordinates, r'' at a node from the given side of it."""
+        element = np.clip(np.searchsorted(self.s, s, side=side) - 1, 0, self.s.size - 2)
         L = self.L[element]
         t = (s - self.s[element]) / L
         N, N1, N2 = (shape_functions(t, L, order) for order in range(3))

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from catenaria.audit.energy import weight
-from catenaria.audit.free_wire import FreeWire
+from catenaria.audit.free_wire import Along, FreeWire
 from catenaria.audit.stated import Stated, StatedDroppers
 from catenaria.audit.verdict import Check
 from catenaria.results.form import Droppers
@@ -23,12 +23,7 @@ def node_check(wires: tuple[FreeWire, FreeWire]) -> Check:
     """Return the balance of every node: energy against weight, supports, droppers and devices."""
     off = [np.max(_in_newtons(wire), axis=1) for wire in wires]
     allowed = [np.full(wire.curve.s.size, wire.force_tolerance) for wire in wires]
-    nodes = [(wire, s) for wire in wires for s in wire.curve.s.tolist()]
-
-    def place(i: int) -> str:
-        wire, s = nodes[i]
-        return f"{wire.stated.name}, {wire.place(s)}"
-
+    place = Along(tuple((wire, s) for wire in wires for s in wire.curve.s.tolist()))
     return Check(_GROUP, "residual of nodes", "N", np.concatenate(off), np.concatenate(allowed), place)
 
 

@@ -99,6 +99,18 @@ class FreeWire:
         return f"s = {s:.3f} m, between {self.joint_name[before]} and {self.joint_name[after]}"
 
 
+@dataclass(frozen=True)
+class Along:
+    """Names of places along wires, made up when asked for."""
+
+    places: tuple[tuple[FreeWire, float], ...]
+
+    def __getitem__(self, i: int, /) -> str:
+        """Return the name of one place."""
+        wire, s = self.places[i]
+        return f"{wire.stated.name}, {wire.place(s)}"
+
+
 def free_wires(result: FormResult, stated: Stated) -> tuple[FreeWire, FreeWire]:
     """Cut the two wires of a result free.
 

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 
 import numpy as np
 from numpy.typing import NDArray
 
-from catenaria.audit.free_wire import FreeWire
+from catenaria.audit.free_wire import Along, FreeWire
 from catenaria.audit.quadrature import clenshaw_curtis
 from catenaria.audit.stated import Stated
-from catenaria.audit.verdict import Check
+from catenaria.audit.verdict import Check, Names
 from catenaria.results.form import Droppers, Supports
 
 FloatArray = NDArray[np.float64]
@@ -47,7 +47,7 @@ def wire_checks(wire: FreeWire, supports: Supports) -> Iterator[Check]:
     shape = form.profile
     r = np.column_stack((shape.x, shape.y, shape.z))
     off = np.linalg.norm(wire.curve.at(shape.s).r - r, axis=1)
-    yield _check(f"{name}, profile", off, lambda i: wire.place(float(shape.s[i])))
+    yield _check("profile", off, Along(tuple((wire, s) for s in shape.s.tolist())))
 
 
 def dropper_checks(wires: tuple[FreeWire, FreeWire], droppers: Droppers, stated: Stated) -> Iterator[Check]:
@@ -65,7 +65,8 @@ def dropper_checks(wires: tuple[FreeWire, FreeWire], droppers: Droppers, stated:
         ("messenger wire", droppers.messenger_height, top[:, 2]),
     ):
         yield _check(f"droppers, height of the {what}", np.abs(column - height), names)
-    yield _check("droppers, length", np.abs(droppers.length - (top - foot)[:, 2]), names)
+    distance = np.linalg.norm(top - foot, axis=1)
+    yield _check("droppers, length", np.abs(droppers.length - distance), names)
     stretched = droppers.unstressed_length * _mean_stretch(droppers, stated)
     yield _check("droppers, unstressed length", np.abs(droppers.length - stretched), names)
     cut = droppers.unstressed_length - kind.clamp_heights
@@ -96,5 +97,5 @@ def _mean_stretch(droppers: Droppers, stated: Stated) -> FloatArray:
     return x @ weights
 
 
-def _check(name: str, off: FloatArray, place: Callable[[int], str]) -> Check:
+def _check(name: str, off: FloatArray, place: Names) -> Check:
     return Check(_GROUP, name, "m", off, np.full(off.size, TOLERANCE), place)

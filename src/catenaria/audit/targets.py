@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from catenaria.audit.allowance import Allowance
 from catenaria.audit.equilibrium import dropper_weight
 from catenaria.audit.free_wire import FreeWire
+from catenaria.audit.internal_forces import strain_tension
 from catenaria.audit.lengths import TOLERANCE, inner_tension
 from catenaria.audit.stated import Stated
 from catenaria.audit.verdict import Check
@@ -39,7 +40,6 @@ def target_checks(
     yield from _tables(result, stated, height, tension, force)
     for wire in wires:
         yield _ends(wire)
-        yield _strain_tension(wire, result)
 
 
 def measured_tension(wire: FreeWire) -> float:
@@ -51,14 +51,8 @@ def measured_tension(wire: FreeWire) -> float:
     """
     end = -1 if wire.stated.at_end else 0
     if wire.stated.measure == "strain":
-        return float(_strain(wire, wire.support_s[[end]])[0])
+        return float(strain_tension(wire, wire.support_s[[end]])[0])
     return float(np.linalg.norm(wire.form.end_force[end]))
-
-
-def _strain(wire: FreeWire, s: FloatArray) -> FloatArray:
-    """Return N = EA eps of eq. (11) [N]."""
-    r1 = wire.curve.at(s).r1
-    return 0.5 * wire.stated.conductor.EA * (np.sum(r1 * r1, axis=1) - 1.0)
 
 
 def _tables(
@@ -103,12 +97,3 @@ def _ends(wire: FreeWire) -> Check:
     off = np.array([abs(said - found) for said, found in pairs.values()])
     allowed = np.full(off.size, wire.force_tolerance)
     return Check(_GROUP, f"{form.name}, stated forces", "N", off, allowed, tuple(pairs))
-
-
-def _strain_tension(wire: FreeWire, result: FormResult) -> Check:
-    """Return whether the stated N = EA eps of eq. (11) at supports is that of the slopes."""
-    held = [i for i, name in enumerate(result.supports.wire) if name == wire.stated.name]
-    off = np.abs(result.supports.tension[held] - _strain(wire, wire.support_s))
-    label = f"{wire.stated.name}, stated strain tension at supports"
-    allowed = np.full(off.size, wire.force_tolerance)
-    return Check(_GROUP, label, "N", off, allowed, wire.joint_name[: off.size])

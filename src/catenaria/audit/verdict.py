@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +12,14 @@ from numpy.typing import NDArray
 FloatArray = NDArray[np.float64]
 
 GROUPS = ("equilibrium", "lengths", "targets")
+
+
+class Names(Protocol):
+    """Names by number: a tuple of them, or what makes up each one when it is asked for."""
+
+    def __getitem__(self, i: int, /) -> str:
+        """Return one name."""
+        ...
 
 
 @dataclass(frozen=True)
@@ -27,8 +36,8 @@ class Check:
         Unit of the deviations.
     deviation, allowed : FloatArray, shape (n,)
         Sizes of the deviations, and the largest ones that pass.
-    place : callable
-        Says of an index which place it is.
+    place : Names
+        The n places.
     """
 
     group: str
@@ -36,7 +45,7 @@ class Check:
     unit: str
     deviation: FloatArray
     allowed: FloatArray
-    place: Callable[[int], str]
+    place: Names
 
 
 @dataclass(frozen=True)
@@ -81,7 +90,7 @@ class Audit:
             return f"Audit of {group}: nothing to check."
         failed = [i for i in rows if not self.deviation[i] <= self.allowed[i]]
         head = f"FAILED, {len(failed)} of {len(rows)} checks" if failed else f"passed, {len(rows)} checks"
-        worst = max(rows, key=lambda i: _ratio(float(self.deviation[i]), float(self.allowed[i])))
+        worst = rows[int(np.argmax(_ratio(self.deviation, self.allowed)[rows]))]
         told = dict.fromkeys((rows[0], worst) if group == GROUPS[0] else (worst,))
         return f"Audit of {group}: {head}; " + "; ".join(self._row(i) for i in told) + "."
 
@@ -95,10 +104,10 @@ def conclude(checks: Sequence[Check]) -> Audit:
 
     Examples
     --------
-    >>> one = np.ones(2)
-    >>> audit = conclude([Check("lengths", "length of droppers", "m", one * [0.0, 2.0], one, "ab".__getitem__)])
+    >>> limit = np.full(2, 1e-3)
+    >>> audit = conclude([Check("lengths", "length of droppers", "m", limit * [0.0, 2.0], limit, ("a", "b"))])
     >>> audit.passed, audit.findings
-    (False, ('length of droppers: off by 2000 mm at b; 1000 mm allowed',))
+    (False, ('length of droppers: off by 2 mm at b; 1 mm allowed',))
     """
     held = [check for check in checks if check.deviation.size]
     worst = [_worst(check) for check in held]
@@ -108,7 +117,7 @@ def conclude(checks: Sequence[Check]) -> Audit:
         group=tuple(check.group for check in held),
         name=tuple(check.name for check in held),
         unit=tuple(check.unit for check in held),
-        place=tuple(check.place(i) for check, i in zip(held, worst, strict=True)),
+        place=tuple(check.place[i] for check, i in zip(held, worst, strict=True)),
         deviation=_finite(deviation),
         allowed=_finite(allowed),
         findings=tuple(text for check in held if (text := _finding(check))),
@@ -124,18 +133,18 @@ def _finding(check: Check) -> str:
     many = f", the worst of {failed} places" if failed > 1 else ""
     deviation = _amount(float(check.deviation[i]), check.unit)
     allowed = _amount(float(check.allowed[i]), check.unit)
-    return f"{check.name}: off by {deviation} at {check.place(i)}{many}; {allowed} allowed"
+    return f"{check.name}: off by {deviation} at {check.place[i]}{many}; {allowed} allowed"
 
 
 def _worst(check: Check) -> int:
-    pairs = zip(check.deviation.tolist(), check.allowed.tolist(), strict=True)
-    return int(np.argmax([_ratio(deviation, allowed) for deviation, allowed in pairs]))
+    return int(np.argmax(_ratio(check.deviation, check.allowed)))
 
 
-def _ratio(deviation: float, allowed: float) -> float:
-    if deviation <= allowed:
-        return deviation / allowed if allowed > 0.0 else 0.0
-    return deviation / allowed if allowed > 0.0 and np.isfinite(deviation) else np.inf
+def _ratio(deviation: FloatArray, allowed: FloatArray) -> FloatArray:
+    """Return deviations in units of what is allowed; what is not a number exceeds everything."""
+    ratio = np.where(deviation <= allowed, 0.0, np.inf)
+    np.divide(deviation, allowed, out=ratio, where=(allowed > 0.0) & np.isfinite(deviation))
+    return ratio
 
 
 def _amount(value: float, unit: str) -> str:

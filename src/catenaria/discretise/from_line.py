@@ -88,7 +88,7 @@ def _droppers(
         target=target,
         law=law,
         foot_height=foot_height,
-        clamp_weight=kind.clamp_mass_top + kind.clamp_mass_bottom,
+        clamps_mass=kind.clamp_mass_top + kind.clamp_mass_bottom,
     )
 
 

@@ -6,12 +6,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from catenaria.discretise.wire_model import WireModel
-from catenaria.mechanics.chain import Chain
+from catenaria.mechanics.chain import Chain, Points
 from catenaria.mechanics.controls.control import Controls as ControlBatch
 from catenaria.numerics.gauss import gauss_legendre
 from catenaria.results.form import Profile, Stage, WireForm
 
 FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.int64]
 
 _NEAR = 0.05  # m by which an element may lie beyond a support and still count as between supports
 _SAMPLES = 8  # points in each element: the sag of a 9.5 m bay is then met to 0.01 mm
@@ -32,10 +33,20 @@ def profile(chain: Chain, z: FloatArray) -> Profile:
     point = chain.evaluate(z, s)
     size = np.linalg.norm(point.r1, axis=1)
     N = chain.section.EA * 0.5 * (size**2 - 1.0)
-    kappa = np.linalg.norm(np.cross(point.r1, point.r2), axis=1) / size**3
+    kappa = 0.5 * (_curvature(point) + _curvature(chain.evaluate(z, s, _element_before(chain, s))))
     x, y, up = point.r.T.copy()
     tension = np.interp(s, chain.knots[:-1] + 0.5 * chain.L, element_tension(chain, z))
     return Profile(s, x, y, up, tension, N, tension * point.r1[:, 0] / size, chain.section.EJ * kappa)
+
+
+def _curvature(point: Points) -> FloatArray:
+    """Return kappa of eq. (10) [1/m]."""
+    return np.linalg.norm(np.cross(point.r1, point.r2), axis=1) / np.linalg.norm(point.r1, axis=1) ** 3
+
+
+def _element_before(chain: Chain, s: FloatArray) -> IntArray:
+    """Return the element of each point, at a node the one before it: r'' jumps there."""
+    return np.clip(np.searchsorted(chain.knots, s, side="left") - 1, 0, chain.knots.size - 2)
 
 
 def element_tension(chain: Chain, z: FloatArray) -> FloatArray:
@@ -87,11 +98,8 @@ def wire_form(model: WireModel, control: ControlBatch, t: float, z: FloatArray) 
     force = np.linalg.norm(z[model.end_force], axis=1)
     along = np.abs(z[model.end_force[:, 0]])
     start = model.system.unknowns.start[wire.nodes]
-    if setup.droppers.up:
-        hung_x, hung_s = setup.droppers.x, model.clamp_s
-    else:
-        hung_x, hung_s = setup.support_x, model.support_s
-    hung_z = wire.evaluate(z, z[hung_s]).r[:, 2]
+    hung_s = np.sort(np.concatenate((z[model.support_s], z[model.clamp_s] if setup.droppers.up else [])))
+    hung = wire.evaluate(z, hung_s).r
     return WireForm(
         name=setup.name,
         unstressed_length=float(s_end - s_start),
@@ -109,7 +117,7 @@ def wire_form(model: WireModel, control: ControlBatch, t: float, z: FloatArray) 
         tension_max=float(tension.max()),
         tension_mean=float(tension @ L / L.sum()),
         travel=float(z[model.pull[0]]),
-        sag=sag(shape, hung_x, hung_z),
+        sag=sag(shape, hung[:, 0], hung[:, 2]),
         profile=shape,
         start_x=start[:, 0],
         start_z=start[:, 2],

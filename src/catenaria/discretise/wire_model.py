@@ -243,7 +243,7 @@ def _dropper_controls(setup: WireSetup, at: _Numbers, inner: IntArray) -> Contro
         inner[:, 2],
         droppers.foot_height,
         droppers.section.rhoA,
-        np.full(droppers.x.size, droppers.clamp_weight),
+        np.full(droppers.x.size, droppers.clamps_mass),
         setup.g,
         setup.gravity_ramp,
     )

@@ -48,7 +48,7 @@ class DropperSetup:
         Law (21), or the similar one for (23).
     foot_height : FloatArray, shape (n,)
         Heights of P_cd [m]; used by the upper cables for the weight G of (23).
-    clamp_weight : float
+    clamps_mass : float
         Mass of both clamps [kg]; used by the upper cables for G.
     """
 
@@ -62,7 +62,7 @@ class DropperSetup:
     target: FloatArray
     law: VelocityLaw
     foot_height: FloatArray
-    clamp_weight: float
+    clamps_mass: float
 
 
 @dataclass(frozen=True)

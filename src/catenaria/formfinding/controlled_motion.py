@@ -10,42 +10,27 @@ import numpy as np
 from numpy.typing import NDArray
 
 from catenaria.discretise.wire_model import WireModel
-from catenaria.errors import NotConvergedError
+from catenaria.errors import InconsistentInputError, InfeasibleError, NotConvergedError
 from catenaria.formfinding.motion_problem import MotionProblem, Tolerances
 from catenaria.formfinding.settling import Settled, largest_error, largest_speed, remaining_travel
 from catenaria.mechanics.controls.control import Controls
 from catenaria.mechanics.system import System
+from catenaria.mechanics.unknowns import Kind
 from catenaria.solvers.bdf import integrate
 from catenaria.solvers.outcome import Options, Solution, Start, Status, Step
 
 FloatArray = NDArray[np.float64]
 Observer = Callable[[Step], None]
 
+_OPEN = 1e-6  # m by which joints may be open at the start
+_ADVICE = (
+    "a larger solver.dynamic.integrator.max_time or max_steps, wider dead bands, a larger ramp_time or "
+    "dropper_force.saturation; a mistaken unit in the line file has the same effect"
+)
+_RESOLVED = 0.02  # part of the width of a velocity law by which a control may err in one time step
 _NEGLIGIBLE = 0.05  # part of a dead band that a Newton correction may leave undone
 _LARGEST_FORCE = 1e-2  # N: forces are wanted to a tenth of a newton even with wide bands
 _CHECK_EVERY = 10  # accepted steps between two looks at the remaining travel, which costs a factorisation
-
-
-@dataclass(frozen=True)
-class Watch:
-    """How the motion looks after an accepted step: for progress displays.
-
-    Attributes
-    ----------
-    model : WireModel
-        What moves.
-    step : Step
-        The accepted step.
-    worst_control : str
-        Name of the control with the largest error.
-    worst_error_in_bands : float
-        That error in units of its dead band.
-    """
-
-    model: WireModel
-    step: Step
-    worst_control: str
-    worst_error_in_bands: float
 
 
 @dataclass(frozen=True)
@@ -104,7 +89,22 @@ def tolerances(model: WireModel, position: float) -> Tolerances:
     bands = (tension,) if model.setup.droppers.up else (tension, droppers)
     force = min(_LARGEST_FORCE, _NEGLIGIBLE * min(bands))
     compliance = min(chain.knots[-1] / chain.section.EA for chain in (model.wire, *model.cables))
-    return Tolerances(position, force * float(compliance), force)
+    return Tolerances(position, _parameter_errors(model, position), force * float(compliance), force)
+
+
+def _parameter_errors(model: WireModel, position: float) -> FloatArray:
+    """Return the error of each control parameter that leaves its law resolved [m].
+
+    A step that errs by more than the width of the law would jump across the dead band; both ends of a wire of
+    length L turn a parameter error d into 2 EA d/L newtons.
+    """
+    tension, droppers = (control.law for control in model.controls(model.system))
+    errors = np.full(model.system.size, position)
+    stiffness = 2.0 * model.wire.section.EA / model.wire.knots[-1]
+    errors[model.pull] = min(position, _RESOLVED * (tension.e1 - tension.e0) / stiffness)
+    if model.setup.droppers.up:
+        errors[model.dropper_travel] = min(position, _RESOLVED * (droppers.e1 - droppers.e0))
+    return errors[model.system.unknowns.where(Kind.PARAMETER)]
 
 
 class _Rest:
@@ -160,12 +160,29 @@ def move(
     z = model.system.unknowns.start
     start = Start(0.0, z, np.zeros_like(z))
     problem = MotionProblem(model.system, tolerances)
-    solution = integrate(problem, start, max_time, options, observers, _Rest(model, settled))
+    _refuse_inconsistent(model, problem, z)
+    try:
+        solution = integrate(problem, start, max_time, options, observers, _Rest(model, settled))
+    except NotConvergedError as error:
+        raise NotConvergedError(f"the {model.setup.name}: {error.reason}", _ADVICE, error.partial) from error
+    except InfeasibleError as error:
+        raise InfeasibleError(f"the {model.setup.name}: {error}") from error
     final = solution.problem
     if solution.status is not Status.STOPPED or not isinstance(final, MotionProblem):
         raise NotConvergedError(
             f"the {model.setup.name} is not at rest after {solution.t[-1]:.4g} s of simulated time",
-            "a longer solver.dynamic.integrator.max_time, wider dead bands or larger control velocities",
+            _ADVICE,
             solution,
         )
     return Motion(model, final.system, solution, perf_counter() - begin)
+
+
+def _refuse_inconsistent(model: WireModel, problem: MotionProblem, z: FloatArray) -> None:
+    """Refuse a start in which joints are open."""
+    rest = np.zeros_like(z)
+    gap = np.abs(problem.residual(0.0, z, rest, rest)[problem.constraint])
+    if gap.max() > _OPEN:
+        raise InconsistentInputError(
+            f"the {model.setup.name} does not fit its joints at the start: one is open by {gap.max():.4g} m. "
+            "An earlier result can only start a line with the same supports, droppers and wire lengths"
+        )

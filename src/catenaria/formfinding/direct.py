@@ -1,7 +1,7 @@
 """The direct method: equilibrium together with all targets, in one Newton iteration for each wire.
 
-The same systems as those of the dynamic equilibrium method, without inertia and with the controls as equations
-e = 0: the fixed point of the controlled motion with dead bands of zero. Staged like the paper's three steps.
+The same systems as those of the dynamic equilibrium method, without inertia and with controls as equations:
+the fixed point of the controlled motion with dead bands of zero, staged like the paper's three steps.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from catenaria.discretise.guess import guess_equilibrium
 from catenaria.discretise.restart import start_from
 from catenaria.discretise.wire_model import WireModel, build_wire_model
 from catenaria.discretise.wire_setup import WireSetup
-from catenaria.errors import InfeasibleError, NotConvergedError
+from catenaria.errors import NotConvergedError
 from catenaria.formfinding.progress import Listener, Progress
 from catenaria.formfinding.static_problem import StaticProblem
 from catenaria.formfinding.third_step import Rest, clamp_height, foot_force, gather
@@ -67,12 +67,11 @@ class Direct:
         NotConvergedError
             If Newton's method does not converge.
         InfeasibleError
-            If a dropper would be in compression.
+            If the schedule cannot be built.
         """
         begin = perf_counter()
         self._tell("contact wire", 1, begin)
         contact, contact_work = _solve(contact_wire_setup(line), start)
-        refuse_compression(contact)
         self._tell("messenger wire", 2, begin)
         messenger_setup = messenger_wire_setup(line, foot_force(contact), clamp_height(contact))
         messenger, messenger_work = _solve(messenger_setup, start)
@@ -83,23 +82,6 @@ class Direct:
     def _tell(self, stage: str, number: int, begin: float) -> None:
         if self.listener is not None:
             self.listener(Progress(stage, number, 3, elapsed=perf_counter() - begin))
-
-
-def refuse_compression(contact: Rest) -> None:
-    """Refuse a contact wire that droppers would have to push down.
-
-    Raises
-    ------
-    InfeasibleError
-        Naming the droppers and what would help.
-    """
-    pushed = np.flatnonzero(foot_force(contact) < 0.0)
-    if pushed.size:
-        where = ", ".join(f"{i + 1} ({foot_force(contact)[i]:.1f} N)" for i in pushed)
-        raise InfeasibleError(
-            f"droppers would be in compression: {where}. The wanted heights pull the contact wire below where "
-            "its tension lets it hang: a smaller pre-sag, a lower tension or other dropper positions would help"
-        )
 
 
 def _solve(setup: WireSetup, start: FormResult | None) -> tuple[Rest, Counters]:

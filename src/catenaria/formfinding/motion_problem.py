@@ -23,7 +23,9 @@ class Tolerances:
     Attributes
     ----------
     position : float
-        Error of positions and control parameters in one time step [m].
+        Error of positions in one time step [m].
+    parameter : float or FloatArray
+        The same for control parameters [m]: one value, or one for each in the order of their numbers.
     correction : float
         Newton correction of a position, sliding coordinate or parameter that counts as none [m].
     force : float
@@ -31,6 +33,7 @@ class Tolerances:
     """
 
     position: float
+    parameter: float | FloatArray
     correction: float
     force: float
 
@@ -61,7 +64,8 @@ class MotionProblem:
         unknowns, tolerances = self.system.unknowns, self.tolerances
         order = 2 * unknowns.where(Kind.POSITION, Kind.SLOPE) + unknowns.where(Kind.PARAMETER)
         constraint = unknowns.where(Kind.MULTIPLIER)
-        error_scale = np.where(unknowns.where(Kind.POSITION, Kind.PARAMETER), tolerances.position, np.inf)
+        error_scale = np.where(unknowns.where(Kind.POSITION), tolerances.position, np.inf)
+        error_scale[unknowns.where(Kind.PARAMETER)] = tolerances.parameter
         newton_scale = np.where(constraint, tolerances.force, tolerances.correction)
         return order.astype(np.int8), constraint, error_scale, newton_scale
 

@@ -13,12 +13,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csc_matrix
-from scipy.sparse.linalg import splu
 
 from catenaria.mechanics.controls.control import Controls
 from catenaria.mechanics.state import State
 from catenaria.mechanics.system import System
 from catenaria.mechanics.unknowns import Kind
+from catenaria.solvers.linear import factorise
 
 FloatArray = NDArray[np.float64]
 
@@ -53,7 +53,7 @@ def largest_error(controls: Sequence[Controls], t: float, z: FloatArray) -> tupl
 
 
 def remaining_travel(system: System, controls: Sequence[Controls], t: float, z: FloatArray) -> float:
-    """Return the largest travel of a parameter until every error is at the edge of its dead band [m].
+    """Estimate the largest travel of a parameter until every error is at the edge of its band [m].
 
     Parameters
     ----------
@@ -80,7 +80,7 @@ def remaining_travel(system: System, controls: Sequence[Controls], t: float, z: 
     J = _with_given(system.jacobian(State.at_rest(z, t)), parameter)
     unit = np.zeros((system.size, moving.size))
     unit[parameter[moving], np.arange(moving.size)] = 1.0
-    z_p = splu(J).solve(unit)
+    z_p = factorise(J).lu.solve(unit)
     e_p = np.concatenate([_error_slopes(control, t, z, z_p) for control in controls])
     return float(np.max(np.abs(np.linalg.solve(e_p[moving], -beyond[moving]))))
 

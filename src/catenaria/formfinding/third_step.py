@@ -11,6 +11,7 @@ from catenaria.catenary.green_bar import stretch
 from catenaria.discretise.history import control_names, control_units
 from catenaria.discretise.read_back import stage, support_strain_tension, wire_form
 from catenaria.discretise.wire_model import WireModel
+from catenaria.errors import InfeasibleError
 from catenaria.formfinding.versions import versions
 from catenaria.line import Line
 from catenaria.mechanics.controls.control import Controls as ControlBatch
@@ -79,13 +80,20 @@ def gather(
         Where the first and the second step ended.
     counters, histories
         Work, and the course of the steps if there was one.
+
+    Raises
+    ------
+    InfeasibleError
+        If the schedule cannot be built; see `refuse_impossible`.
     """
     steps = (contact, messenger)
+    droppers = dropper_schedule(line, contact, messenger)
+    refuse_impossible(droppers)
     return FormResult(
         name=line.name,
         method=method,
         stop_reason=reason,
-        droppers=dropper_schedule(line, contact, messenger),
+        droppers=droppers,
         wires=tuple(wire_form(step.model, step.controls[0], step.t, step.z) for step in steps),
         supports=_supports(steps, support_names(line)),
         controls=_controls(steps),
@@ -104,10 +112,10 @@ def support_names(line: Line) -> tuple[tuple[str, ...], tuple[str, ...]]:
 
 
 def dropper_schedule(line: Line, contact: Rest, messenger: Rest) -> Droppers:
-    """Return the third step: lengths from the two clamps' heights, and the lengths to cut."""
+    """Return the third step: lengths between the two clamps, and the lengths to cut."""
     kind = line.dropper
     foot, top = clamp_height(contact), clamp_height(messenger)
-    length = top - foot
+    length = np.linalg.norm(_clamps(messenger) - _clamps(contact), axis=1)
     force_bottom = foot_force(contact)
     force_top = messenger.z[messenger.model.clamp_force[:, 2]]
     inner_force = 0.5 * (
@@ -137,6 +145,48 @@ def dropper_schedule(line: Line, contact: Rest, messenger: Rest) -> Droppers:
         on_contact=_on_wire(contact),
         on_messenger=_on_wire(messenger),
     )
+
+
+def _clamps(step: Rest) -> FloatArray:
+    """Return where the droppers are clamped to the wire, shape (n, 3)."""
+    return step.z[np.array([cable.nodes[0, :3] for cable in step.model.cables])]
+
+
+def refuse_impossible(droppers: Droppers) -> None:
+    """Refuse a schedule that cannot be built.
+
+    Parameters
+    ----------
+    droppers : Droppers
+        What was found.
+
+    Raises
+    ------
+    InfeasibleError
+        Naming droppers that would be in compression or without length, and what would help.
+    """
+    for wrong, size, unit, what, advice in (
+        (droppers.force_bottom < 0.0, droppers.force_bottom, "N", "would be in compression", _PUSHED),
+        (
+            droppers.messenger_height <= droppers.height,
+            droppers.length,
+            "m",
+            "would stand upside down",
+            _SLACK,
+        ),
+        (droppers.cut_length <= 0.0, droppers.cut_length, "m", "would be cut to nothing", _SHORT),
+    ):
+        if np.any(wrong):
+            where = ", ".join(f"{i + 1} ({size[i]:.4g} {unit})" for i in np.flatnonzero(wrong))
+            raise InfeasibleError(f"droppers {what}: {where}. {advice}")
+
+
+_PUSHED = (
+    "The wanted heights are below where the tension lets the contact wire hang: a smaller pre-sag, a lower "
+    "tension or other dropper positions would help"
+)
+_SLACK = "The messenger sags below the contact wire: more tension or higher supports would help"
+_SHORT = "The clamps bridge more than there is between the wires: check the clamp heights"
 
 
 def _on_wire(step: Rest) -> FloatArray:

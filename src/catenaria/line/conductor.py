@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from pydantic import ConfigDict, Field, model_validator
 
+from catenaria.errors import InconsistentInputError
 from catenaria.line.base import LineModel, Problem, exactly_one, refuse
 from catenaria.units import (
     BendingStiffness,
@@ -57,7 +58,9 @@ class Conductor(LineModel):
         """Mass per unstressed length [kg/m]."""
         if self.mass_per_length is not None:
             return self.mass_per_length
-        return (self.density or 0.0) * self.area
+        if self.density is None:
+            raise InconsistentInputError("a conductor needs a density or a mass per length")
+        return self.density * self.area
 
     @model_validator(mode="after")
     def _one_mass(self) -> Conductor:

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from itertools import pairwise
 from typing import Annotated, Literal
 
 from annotated_types import Ge
 from pydantic import Field, Strict, model_validator
 
+from catenaria.errors import InconsistentInputError
 from catenaria.line.base import LineModel, Problem, refuse
 from catenaria.units import Length, NonNegativeLength, NonNegativeMass, PositiveLength
 
@@ -73,8 +73,9 @@ class Droppers(LineModel):
         """Distances of the droppers from the span's first support [m]."""
         if self.positions is not None:
             return self.positions
-        first, spacing = self.first or 0.0, self.spacing or 0.0
-        return tuple(first + i * spacing for i in range(self.count or 0))
+        if self.first is None or self.spacing is None or self.count is None:
+            raise InconsistentInputError("droppers need positions, or first, spacing and count together")
+        return tuple(self.first + i * self.spacing for i in range(self.count))
 
     def place(self, number: int) -> tuple[str | int, ...]:
         """Field that says where the dropper with this index hangs."""
@@ -97,8 +98,3 @@ class Droppers(LineModel):
         for name, value in pattern.items():
             if value is not None:
                 yield Problem((name,), value, "either positions, or first, spacing and count")
-        for i, (before, after) in enumerate(pairwise(self.positions), start=1):
-            if after <= before:
-                yield Problem(
-                    ("positions", i), after, f"more than {before:g} m: droppers stand in ascending order"
-                )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from itertools import accumulate
+from itertools import accumulate, count
 from typing import Any, Literal
 
 from pydantic import Field, PrivateAttr, field_validator, model_validator
@@ -64,11 +64,14 @@ class Line(LineModel):
     @field_validator("supports", mode="after")
     @classmethod
     def _numbered(cls, supports: tuple[Support, ...]) -> tuple[Support, ...]:
-        """Name the supports that have no name by their number."""
-        return tuple(
-            support if support.name else support.model_copy(update={"name": f"S{number}"})
-            for number, support in enumerate(supports, start=1)
-        )
+        """Name the supports that have no name by their number, or the next one that is not taken."""
+        taken = {support.name for support in supports}
+        named: list[Support] = []
+        for number, support in enumerate(supports, start=1):
+            name = support.name or next(f"S{i}" for i in count(number) if f"S{i}" not in taken)
+            taken.add(name)
+            named.append(support if support.name else support.model_copy(update={"name": name}))
+        return tuple(named)
 
     @model_validator(mode="after")
     def _consistent(self) -> Line:

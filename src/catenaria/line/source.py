@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import Final
 
 from catenaria.line.base import Path
 
 Mark = tuple[int, int]
+
+UNKNOWN_MARK: Final[Mark] = (0, 0)
 
 
 def format_path(path: Path) -> str:
@@ -44,4 +47,4 @@ class Source:
         """Line and column of a value, or of what lacks it; (0, 0) if nothing is known."""
         while path and path not in self.values:
             path = path[:-1]
-        return self.values.get(path, (0, 0))
+        return self.values.get(path, UNKNOWN_MARK)

@@ -48,7 +48,7 @@ class Span(LineModel):
 
     @property
     def heights(self) -> tuple[float, ...]:
-        """Wanted height of the contact wire at each dropper [m]."""
+        """Wanted heights of the contact wire [m]; in a line there is one for each dropper."""
         height = self.contact_wire_height
         return height if isinstance(height, tuple) else (height,) * len(self.droppers.x)
 
@@ -58,15 +58,15 @@ class Span(LineModel):
         return self
 
     def _problems(self) -> Iterator[Problem]:
-        x = self.droppers.x
-        for i, position in enumerate(x):
+        previous = 0.0  # of those inside the span: one position at fault says nothing about its neighbours
+        for i, position in enumerate(self.droppers.x):
+            place = ("droppers", *self.droppers.place(i))
             if position <= 0.0 or position >= self.length:
                 inside = f"droppers inside the span, between 0 and {self.length:g} m"
-                allowed = f"{inside}; number {i + 1} is at {position:g} m"
-                yield Problem(("droppers", *self.droppers.place(i)), position, allowed)
+                yield Problem(place, position, f"{inside}; number {i + 1} is at {position:g} m")
                 if self.droppers.positions is None:
                     break  # one field places them all
-        heights = self.contact_wire_height
-        if isinstance(heights, tuple) and len(heights) != len(x):
-            allowed = f"one height, or {len(x)} of them: one for each dropper, whose length it releases"
-            yield Problem(("contact_wire_height",), heights, allowed)
+                continue
+            if position <= previous:
+                yield Problem(place, position, f"more than {previous:g} m: droppers stand in ascending order")
+            previous = position

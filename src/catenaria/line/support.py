@@ -7,6 +7,7 @@ from typing import Literal
 
 from pydantic import ConfigDict, Field, model_validator
 
+from catenaria.errors import InconsistentInputError
 from catenaria.line.base import LineModel, Problem, exactly_one, refuse
 from catenaria.units import Length, NonNegativeMass, PositiveLength, PositiveStiffness
 
@@ -104,7 +105,9 @@ class Support(LineModel):
         messenger, contact = self.messenger_wire, self.contact_wire
         if messenger.height is not None:
             return messenger.height
-        return (messenger.encumbrance or 0.0) + (contact.height if contact else 0.0)
+        if messenger.encumbrance is None or contact is None:
+            raise InconsistentInputError("an encumbrance needs a contact wire that is held at the same support")
+        return contact.height + messenger.encumbrance
 
     @model_validator(mode="after")
     def _messenger_above_contact_wire(self) -> Support:

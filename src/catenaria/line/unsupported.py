@@ -7,8 +7,10 @@ from collections.abc import Iterator
 from catenaria.errors import UnsupportedError
 from catenaria.line.base import Path
 from catenaria.line.line import Line
-from catenaria.line.source import format_path
+from catenaria.line.source import UNKNOWN_MARK, format_path
 from catenaria.line.support import Support
+
+_SAME_HEIGHT = 1e-9  # m: rounding of a height and an encumbrance that are added
 
 
 def refuse_unsupported(line: Line) -> None:
@@ -24,10 +26,14 @@ def refuse_unsupported(line: Line) -> None:
     UnsupportedError
         With one line of text for each such thing: file, line, column, field and what is solved instead.
     """
-    found = sorted(_unsupported(line), key=lambda item: line.source.mark(item[0]))
-    complaints = [_complaint(line, path, what) for path, what in found]
+    complaints: dict[object, str] = {}
+    for path, what in sorted(_unsupported(line), key=lambda item: line.source.mark(item[0])):
+        mark = line.source.mark(path)
+        # What a YAML alias repeats stands at one place and is one complaint.
+        place = (mark, path[-1]) if mark != UNKNOWN_MARK else path
+        complaints.setdefault((place, what), _complaint(line, path, what))
     if complaints:
-        raise UnsupportedError("\n".join(complaints))
+        raise UnsupportedError("\n".join(complaints.values()))
 
 
 def _complaint(line: Line, path: Path, what: str) -> str:
@@ -62,11 +68,13 @@ def _wires(line: Line) -> Iterator[tuple[Path, str]]:
 
 def _heights(line: Line) -> Iterator[tuple[Path, str]]:
     """Yield supports that do not hold a wire as high as its first one: wires are laid out level."""
-    contact = line.supports[line.contact_support_indices[0]].contact_wire
+    contact, first = line.contact_support_indices[0], line.supports[0]
+    level = line.supports[contact].contact_wire
     for i, support in enumerate(line.supports):
-        if contact and support.contact_wire and support.contact_wire.height != contact.height:
+        held = support.contact_wire
+        if held and level and abs(held.height - level.height) > _SAME_HEIGHT:
             yield ("supports", i, "contact_wire", "height"), "a contact wire held at different heights"
-        if abs(support.messenger_height - line.supports[0].messenger_height) > 1e-9:
+        if abs(support.messenger_height - first.messenger_height) > _SAME_HEIGHT:
             yield ("supports", i, "messenger_wire"), "a messenger wire held at different heights"
 
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from collections.abc import Sequence
+from typing import Literal, cast
 
 from pydantic import Field, field_validator
 from pydantic_core import PydanticCustomError
@@ -31,6 +32,12 @@ class Tension(LineModel):
     )
 
 
+def _excess(tensions: Sequence[object]) -> str:
+    """Say how many tensions there are beyond the one that the length of the wire can fulfil."""
+    more = len(tensions) - 1
+    return f"; {more} more than lengths to release" if more > 0 else ""
+
+
 class Wire(LineModel):
     """A wire along the whole line."""
 
@@ -45,9 +52,8 @@ class Wire(LineModel):
     def _one_tension(cls, value: object) -> object:
         """A wire slides over its supports: a second tension finds no length to release."""
         if isinstance(value, list | tuple):
-            raise PydanticCustomError(
-                "value", "{allowed}", {"allowed": "one tension for a wire, with its force"}
-            )
+            allowed = f"one tension for a wire, with its force{_excess(cast('Sequence[object]', value))}"
+            raise PydanticCustomError("value", "{allowed}", {"allowed": allowed})
         return value
 
 

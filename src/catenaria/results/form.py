@@ -120,8 +120,8 @@ class WireForm:
     travel : float
         How far each end was pulled outwards [m].
     sag : float
-        Contact wire: largest depth below the line through two neighbouring droppers; messenger: largest depth
-        below the chord of a span [m].
+        Contact wire: largest depth below the line through two neighbouring droppers or supports that hold it;
+        messenger: largest depth below the chord of a span [m].
     profile : Profile
         Equilibrium configuration with internal forces.
     start_x, start_z : FloatArray

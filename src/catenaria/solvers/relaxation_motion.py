@@ -118,7 +118,7 @@ def advance_kinetically(motion: Motion) -> float | None:
     -----
     The energies belong to the middles of steps. If this one is below the last one, the last one is the peak
     and belongs half a step before y (Barnes 1999, who first makes this step too and goes back by
-    3/2 dt v - dt^2 f/(2 m), the same place).
+    3/2 dt v + dt^2 f/(2 m), to the same place).
     """
     before = motion.twice_energy
     motion.kick(1.0, 1.0)

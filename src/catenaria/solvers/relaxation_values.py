@@ -39,11 +39,11 @@ class RelaxationProblem(Protocol):
         ...
 
     def stiffness_bound(self, y: FloatArray) -> FloatArray:
-        """Return a bound of sum_j |K_ij| at y and near it, positive.
+        """Return a bound of sum_j |K_ij| d_j / d_i at y and near it, with any d > 0 (1 where units agree).
 
-        Masses follow the stiffness, but not at once. An unknown that is soft at y but would stiffen soon,
-        such as the deflection of a straight wire without tension, should be given the bound of its stiffer
-        neighbours.
+        It must be positive. Masses follow the stiffness, but not at once: an unknown that is soft at y and
+        would stiffen soon, such as the deflection of a straight wire without tension, should be given the
+        bound of its stiffer neighbours.
         """
         ...
 

@@ -1,0 +1,67 @@
+"""Internal forces along wires: what a profile says of tension and moment, from the slopes once more."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+
+from catenaria.audit.curve import Points
+from catenaria.audit.free_wire import Along, FreeWire
+from catenaria.audit.quadrature import clenshaw_curtis
+from catenaria.audit.verdict import Check
+from catenaria.results.form import Supports
+
+FloatArray = NDArray[np.float64]
+
+_GROUP = "equilibrium"
+
+
+def profile_checks(wire: FreeWire) -> Iterator[Check]:
+    """Yield the checks of stated tensions, strain tensions, horizontal components and moments."""
+    shape, kind = wire.form.profile, wire.stated.conductor
+    at = wire.curve.at(shape.s)
+    size = np.linalg.norm(at.r1, axis=1)
+    middle = 0.5 * (wire.curve.s[:-1] + wire.curve.s[1:])
+    tension = np.interp(shape.s, middle, mean_tension(wire))
+    after, before = (kind.EJ * _curvature(at) for at in (at, wire.curve.at(shape.s, side="left")))
+    moment = np.clip(shape.moment, np.minimum(before, after), np.maximum(before, after))
+    allowed = np.full(shape.s.shape, wire.force_tolerance)
+    places = Along(tuple((wire, s) for s in shape.s.tolist()))
+    for name, unit, said, found in (
+        ("profile, tension", "N", shape.tension, tension),
+        ("profile, strain tension (11)", "N", shape.strain_tension, strain_tension(wire, shape.s)),
+        ("profile, horizontal component", "N", shape.horizontal, tension * at.r1[:, 0] / size),
+        ("profile, bending moment", "N m", shape.moment, moment),
+    ):
+        yield Check(_GROUP, name, unit, np.abs(said - found), allowed, places)
+
+
+def support_check(wire: FreeWire, supports: Supports) -> Check:
+    """Return whether the stated N = EA eps of eq. (11) at supports is that of the slopes."""
+    held = [i for i, name in enumerate(supports.wire) if name == wire.stated.name]
+    off = np.abs(supports.tension[held] - strain_tension(wire, wire.support_s))
+    label = f"{wire.stated.name}, strain tension (11) at supports"
+    allowed = np.full(off.size, wire.force_tolerance)
+    return Check(_GROUP, label, "N", off, allowed, wire.joint_name[: off.size])
+
+
+def _curvature(at: Points) -> FloatArray:
+    """Return kappa of eq. (10) [1/m]; it jumps at nodes, where anything between both sides will do."""
+    return np.linalg.norm(np.cross(at.r1, at.r2), axis=1) / np.linalg.norm(at.r1, axis=1) ** 3
+
+
+def strain_tension(wire: FreeWire, s: FloatArray) -> FloatArray:
+    """Return N = EA eps of eq. (11) at material coordinates [N]."""
+    r1 = wire.curve.at(s).r1
+    return 0.5 * wire.stated.conductor.EA * (np.sum(r1 * r1, axis=1) - 1.0)
+
+
+def mean_tension(wire: FreeWire) -> FloatArray:
+    """Return the mean over each element of the true axial force EA eps |r'| [N]."""
+    points, weights = clenshaw_curtis(12)
+    s = wire.curve.s[:-1, None] + wire.curve.L[:, None] * points
+    size = np.linalg.norm(wire.curve.at(s.ravel()).r1, axis=1)
+    force = 0.5 * wire.stated.conductor.EA * (size**2 - 1.0) * size
+    return force.reshape(s.shape) @ weights
