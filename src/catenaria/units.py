@@ -53,11 +53,9 @@ _DECIMAL_COMMA: Final = re.compile(r"[-+]?\d*,\d.*", re.ASCII)
 _BARE_POWER: Final = re.compile(r"(?<=[A-Za-zµμ])(?=[2-4])")
 _MOMENT: Final = re.compile(r"([kM]?N)(?=m{1,2}(?![A-Za-z]))")
 
-# By lower case; where two units differ in capital letters only (mPa, MPa), the one that lines are built with.
+# The units that lines are built with, by lower case.
 _SPELLED: Final = {
-    (prefix + symbol).lower(): prefix + symbol
-    for symbol in ("t", "min", "h", "s", "g", "m", "Pa", "N")
-    for prefix in ("m", "c", "da", "G", "M", "k", "")
+    unit.lower(): unit for unit in ["m", "dm", "cm", "mm", "km", "um", "s", "ms", "min", "h", "g", "kg", "t", "N", "daN", "kN", "MN", "kgf", "Pa", "kPa", "MPa", "GPa"]
 }
 
 

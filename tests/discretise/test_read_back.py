@@ -20,7 +20,7 @@ from catenaria.discretise.read_back import (
 )
 from catenaria.discretise.wire_model import WireModel
 from catenaria.mechanics.chain import Chain
-from catenaria.results.form import Profile
+from catenaria.results.form import Profile, Stage
 
 FloatArray = NDArray[np.float64]
 Laid = tuple[Chain, FloatArray]
@@ -193,14 +193,19 @@ def test_reactions_and_strain_at_supports(contact: WireModel) -> None:
     np.testing.assert_allclose(support_strain_tension(contact, z), N, rtol=1e-9)
 
 
-def test_a_stage_lists_everything_once(messenger: WireModel) -> None:
-    """Every unknown of the model is in its stage: a vector of distinct numbers comes back complete."""
-    z = np.arange(messenger.system.size, dtype=np.float64)
-    kept = stage(messenger, z)
+def check_complete(kept: Stage, z: FloatArray) -> None:
     parts = (kept.position, kept.slope, kept.sliding_coordinate, kept.parameter, kept.multiplier)
     everything = np.sort(np.concatenate([part.ravel() for part in parts]))
-    np.testing.assert_array_equal(everything, z)
+    np.testing.assert_array_equal(everything, np.sort(z))
+
+
+def test_a_stage_lists_every_unknown_once(messenger: WireModel) -> None:
+    z = np.arange(messenger.system.size, dtype=np.float64)
+    kept = stage(messenger, z)
+    check_complete(kept, z)
     assert kept.node_count.sum() == kept.s.size == kept.position.shape[0]
     assert kept.chain == ("messenger wire", *(f"dropper {i}" for i in range(1, 22)))
-    forgetful = replace(kept, parameter=kept.parameter[1:])
-    assert forgetful.parameter.size + everything.size - kept.parameter.size < z.size
+    with pytest.raises(AssertionError):
+        check_complete(replace(kept, parameter=kept.parameter[1:]), z)
+    with pytest.raises(AssertionError):
+        check_complete(replace(kept, slope=kept.position), z)

@@ -20,10 +20,18 @@ import catenaria
 from catenaria.mechanics.chain import Chain, Section
 from catenaria.mechanics.contribution import Contribution, Relocatable
 from catenaria.mechanics.controls.control import Controls, Measure
-from catenaria.mechanics.controls.measures import DropperForce, Height, ReactionTension, StrainTension
+from catenaria.mechanics.controls.given import Given
+from catenaria.mechanics.controls.measures import (
+    DropperForce,
+    Height,
+    ReactionTension,
+    StrainTension,
+    WireHeight,
+)
 from catenaria.mechanics.controls.target import Targets
 from catenaria.mechanics.controls.velocity_law import VelocityLaw
 from catenaria.mechanics.elements.cable import CableElements
+from catenaria.mechanics.elements.dropper import Droppers
 from catenaria.mechanics.joints.fixed import FixedJoints, normals
 from catenaria.mechanics.joints.guided import GuidedJoints
 from catenaria.mechanics.joints.held_point import HeldPoints
@@ -113,6 +121,15 @@ def held() -> HeldPoints:
     return HeldPoints(nodes, LA.reshape(4, 3), direction + 0.3, direction, np.array([P[0], -1, P[1], P[0]]))
 
 
+def bars(clamped: bool) -> Droppers:
+    """Return a taut bar between the wire and another one of one element."""
+    upper = Chain(OTHER, np.array([0.3, 2.2]), SECTION)
+    at = (np.array([0.5]), np.array([1.6])) if clamped else None
+    one = np.array([0])
+    s, x = (S[:1], S[1:]), UNIT[0, :1]
+    return Droppers(WIRE, upper, *s, one, one, P[:1], x, 50.0, 0.3, 0.1, 0.2, 9.81, at, may_push=True)
+
+
 def reaction() -> ReactionTension:
     return ReactionTension(LA[:6].reshape(2, 3), UNIT)
 
@@ -167,11 +184,15 @@ PARTS: dict[str, Entry] = {
     "Controls of strain": Entry(lambda: controls(strain(), P[2:]), complex_step=False),
     "Controls of height": Entry(lambda: controls(height(), P[:2]), complex_step=False),
     "Controls of dropper force": Entry(lambda: controls(dropper(), P[2:]), complex_step=False),
+    "Droppers": Entry(lambda: bars(clamped=False), complex_step=False),
+    "Droppers clamped": Entry(lambda: bars(clamped=True), complex_step=False),
+    "Given": Entry(lambda: Given(P[:2], np.array([0.1, 0.2]))),
     "Targets": Entry(lambda: Targets.of(controls(strain(), P[2:])), complex_step=False),
 }
 MEASURES: dict[str, Callable[[], Measure]] = {
     "ReactionTension": reaction,
     "StrainTension": strain,
+    "WireHeight": lambda: WireHeight(WIRE, S, IN_ELEMENT),
     "Height": height,
     "DropperForce": dropper,
 }
@@ -386,7 +407,8 @@ def test_jacobian_after_relocation(name: str) -> None:
     z[S] = [1.9, 0.7]
     state = replace(state, z=z)
     other = part.relocate(z)
-    if name in ("SlidingJoints", "SlidingJoints of nodes", "GuidedJoints", "Controls of strain", "Targets"):
+    moved = ("SlidingJoints", "SlidingJoints of nodes", "GuidedJoints", "Controls of strain", "Targets")
+    if name in (*moved, "Droppers", "Droppers clamped"):
         assert other is not None
         assert isinstance(other, Contribution)
         other = aimed(other, state) if isinstance(other, Controls) else other

@@ -3,6 +3,6 @@
 from __future__ import annotations
 
 from catenaria.audit.audit import audit_result
-from catenaria.audit.verdict import Audit
+from catenaria.results.audit import Audit
 
 __all__ = ["Audit", "audit_result"]

@@ -9,7 +9,8 @@ from catenaria.audit.allowance import allowance
 from catenaria.audit.free_wire import free_wires
 from catenaria.audit.stated import read_inputs
 from catenaria.audit.targets import target_checks
-from catenaria.audit.verdict import Audit, Check, conclude
+from catenaria.audit.verdict import Check, conclude
+from catenaria.results.audit import Audit
 from catenaria.results.form import FormResult
 
 

@@ -123,7 +123,7 @@ class _Numbers:
 def build_wire_model(setup: WireSetup) -> WireModel:
     """Return the starting configuration of Fig. 5(b) with all joints, loads and controls."""
     unknowns = UnknownsBuilder()
-    wire = _straight_wire(setup, unknowns)
+    wire = straight_wire(setup, unknowns)
     cables = _dropper_cables(setup.droppers, setup.height, unknowns)
     at = _Numbers.of(setup, unknowns)
     table, number = unknowns.build_along_line()
@@ -133,7 +133,7 @@ def build_wire_model(setup: WireSetup) -> WireModel:
     inner = np.array([cable.nodes[0, :3] for cable in cables])
     inertia, damping, gravity = _loads(setup, elements, inner, table.start)
     supports, held_ends, held_droppers, clamps = _joints(setup, wire, cables, at, table.start)
-    tension = _tension_control(setup, supports, held_ends, at)
+    tension = tension_control(setup, supports, held_ends, at.pull)
     droppers = _dropper_controls(setup, at, inner)
     joints = (supports, held_ends, held_droppers, clamps)
     return WireModel(
@@ -154,7 +154,7 @@ def build_wire_model(setup: WireSetup) -> WireModel:
     )
 
 
-def _straight_wire(setup: WireSetup, unknowns: UnknownsBuilder) -> Chain:
+def straight_wire(setup: WireSetup, unknowns: UnknownsBuilder) -> Chain:
     """Return the wire as laid out: straight, level, without strain, a tail beyond each end support."""
     first, last = setup.support_x[0], setup.support_x[-1]
     length = last - first + 2.0 * setup.tail
@@ -180,17 +180,38 @@ def _dropper_cables(setup: DropperSetup, height: float, unknowns: UnknownsBuilde
     )
 
 
+def hold_wire(
+    setup: WireSetup,
+    wire: Chain,
+    z: FloatArray,
+    support: tuple[IntArray, IntArray],
+    end: tuple[IntArray, IntArray],
+) -> tuple[SlidingJoints, HeldPoints]:
+    """Return the supports of a wire and its driven ends.
+
+    Parameters
+    ----------
+    setup, wire, z
+        The wire and its starting values.
+    support : tuple of IntArray, shape (m,), (m, 3)
+        Sliding coordinates and multipliers of the supports.
+    end : tuple of IntArray, shape (1,), (2, 3)
+        The parameter that pulls both ends apart, and their multipliers.
+    """
+    level = np.zeros_like(setup.support_x)
+    X = np.column_stack((setup.support_x, level, level + setup.height))
+    supports = SlidingJoints(wire, *support, wire.locate(z[support[0]]), X)
+    nodes, (pull, force) = wire.nodes[[0, -1], :3], end
+    return supports, HeldPoints(nodes, force, z[nodes], np.outer([-1.0, 1.0], _ALONG), np.repeat(pull, 2))
+
+
 def _joints(
     setup: WireSetup, wire: Chain, cables: tuple[Chain, ...], at: _Numbers, z: FloatArray
 ) -> tuple[SlidingJoints, HeldPoints, HeldPoints, SlidingJoints | GuidedJoints]:
     """Return supports, driven wire ends, driven dropper ends, and the clamps between wire and droppers."""
     droppers = setup.droppers
-    level = np.zeros_like(setup.support_x)
-    X = np.column_stack((setup.support_x, level, level + setup.height))
-    supports = SlidingJoints(wire, at.support_s, at.support_force, wire.locate(z[at.support_s]), X)
-
-    ends = wire.nodes[[0, -1], :3]
-    held_ends = HeldPoints(ends, at.end_force, z[ends], np.outer([-1.0, 1.0], _ALONG), np.repeat(at.pull, 2))
+    support, end = (at.support_s, at.support_force), (at.pull, at.end_force)
+    supports, held_ends = hold_wire(setup, wire, z, support, end)
     outer = np.array([cable.nodes[-1, :3] for cable in cables])
     moved = np.tile(_UP if droppers.up else -_UP, (len(cables), 1))
     held_droppers = HeldPoints(outer, at.free_force, z[outer], moved, at.dropper_travel)
@@ -217,7 +238,7 @@ def _loads(
     return Inertia(M), damping, Gravity(elements.weight(z.size) + point_weight, setup.g, setup.gravity_ramp)
 
 
-def _tension_control(setup: WireSetup, supports: SlidingJoints, ends: HeldPoints, at: _Numbers) -> Controls:
+def tension_control(setup: WireSetup, supports: SlidingJoints, ends: HeldPoints, pull: IntArray) -> Controls:
     """Return the control (19)-(20) of a wire: one velocity moves both ends apart, one end is measured."""
     end = slice(-1, None) if setup.tension.at_end else slice(0, 1)
     if setup.tension.measure == "strain":
@@ -225,7 +246,7 @@ def _tension_control(setup: WireSetup, supports: SlidingJoints, ends: HeldPoints
     else:
         measure = ReactionTension(ends.multipliers[end], ends.direction[end])
     target = np.array([setup.tension.force])
-    return Controls(at.pull, measure, target, setup.tension.law, setup.control_ramp, Ramp(0.0))
+    return Controls(pull, measure, target, setup.tension.law, setup.control_ramp, Ramp(0.0))
 
 
 def _dropper_controls(setup: WireSetup, at: _Numbers, inner: IntArray) -> Controls:

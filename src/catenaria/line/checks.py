@@ -6,6 +6,11 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from catenaria.line.base import Path, Problem, closest
+from catenaria.line.plausibility import (
+    implausible_conductors,
+    implausible_heights,
+    implausible_tensions,
+)
 
 if TYPE_CHECKING:
     from catenaria.line.line import Line
@@ -23,7 +28,9 @@ def line_problems(line: Line) -> Iterator[Problem]:
     yield from _wrong_counts(line)
     yield from _loose_ends(line)
     yield from _names_given_twice(line)
-    yield from _low_messenger(line)
+    yield from implausible_conductors(line)
+    yield from implausible_tensions(line)
+    yield from implausible_heights(line)
 
 
 def _unknown_conductors(line: Line) -> Iterator[Problem]:
@@ -50,6 +57,19 @@ def _wrong_counts(line: Line) -> Iterator[Problem]:
         yield Problem(("supports",), line.supports, allowed)
     if not any(span.droppers.x for span in line.spans):
         yield Problem(("spans",), line.spans, "at least one span with a dropper")
+    for i, span in enumerate(line.spans):
+        yield from _wrong_heights(i, len(span.heights), len(span.droppers.x))
+
+
+def _wrong_heights(span: int, prescribed: int, released: int) -> Iterator[Problem]:
+    """Each prescribed height needs one dropper length that is released to fulfil it, and the other way round."""
+    if prescribed != released:
+        difference = "more" if prescribed > released else "fewer"
+        allowed = (
+            f"one height, or {released} of them: one for each dropper, whose length it releases; "
+            f"{abs(prescribed - released)} {difference} than lengths to release"
+        )
+        yield Problem(("spans", span, "contact_wire_height"), prescribed, allowed)
 
 
 def _loose_ends(line: Line) -> Iterator[Problem]:
@@ -66,16 +86,3 @@ def _names_given_twice(line: Line) -> Iterator[Problem]:
         if support.name in seen:
             yield Problem(("supports", i, "name"), support.name, "a name that no other support has")
         seen.add(support.name)
-
-
-def _low_messenger(line: Line) -> Iterator[Problem]:
-    """Where the contact wire passes a support freely, its height there is that at the nearest droppers."""
-    for i, support in enumerate(line.supports):
-        left = line.spans[i - 1].heights[-1:] if 0 < i <= len(line.spans) else ()
-        right = line.spans[i].heights[:1] if i < len(line.spans) else ()
-        nearest = left + right
-        if support.contact_wire is None and nearest and support.messenger_height <= max(nearest):
-            allowed = (
-                f"more than {max(nearest):g} m, the wanted height of the contact wire at the next dropper"
-            )
-            yield Problem(("supports", i, "messenger_wire", "height"), support.messenger_height, allowed)

@@ -75,12 +75,12 @@ def _droppers(line: Line) -> list[tuple[str, str]]:
 
 def _prescribed(line: Line) -> list[tuple[str, str]]:
     """Count what is wanted and what is free to fulfil it: a form is determined if both agree."""
-    wires = (line.contact_wire, line.messenger_wire)
-    tensions = sum(1 for wire in wires if wire.tension.force > 0.0)
+    tensions = [line.contact_wire.tension, line.messenger_wire.tension]
+    wires = [line.contact_wire, line.messenger_wire]
     heights = sum(len(span.heights) for span in line.spans)
     droppers = sum(len(span.droppers.x) for span in line.spans)
     return [
-        ("wanted", f"{tensions} tensions + {heights} heights"),
+        ("wanted", f"{len(tensions)} tensions + {heights} heights"),
         ("found", f"{len(wires)} wire lengths + {droppers} dropper lengths"),
     ]
 

@@ -106,7 +106,9 @@ class Support(LineModel):
         if messenger.height is not None:
             return messenger.height
         if messenger.encumbrance is None or contact is None:
-            raise InconsistentInputError("an encumbrance needs a contact wire that is held at the same support")
+            raise InconsistentInputError(
+                "an encumbrance needs a contact wire that is held at the same support"
+            )
         return contact.height + messenger.encumbrance
 
     @model_validator(mode="after")

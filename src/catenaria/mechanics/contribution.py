@@ -36,7 +36,7 @@ class Contribution(Protocol):
 
 
 @runtime_checkable
-class Relocatable(Contribution, Protocol):
+class Relocatable(Protocol):
     """A contribution with discrete state: the element in which each sliding point is."""
 
     def relocate(self, z: FloatArray) -> Contribution | None:

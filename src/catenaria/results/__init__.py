@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from catenaria.results.audit import NOT_AUDITED, Audit
 from catenaria.results.folder import replace_folder, require_replaceable
 from catenaria.results.form import (
     Controls,
@@ -17,6 +18,8 @@ from catenaria.results.form import (
 from catenaria.results.store import load_result, save_result
 
 __all__ = [
+    "NOT_AUDITED",
+    "Audit",
     "Controls",
     "Counters",
     "Droppers",

@@ -12,6 +12,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from catenaria.results.audit import NOT_AUDITED, Audit
+
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 
@@ -320,6 +322,8 @@ class FormResult:
         Echo of the line file, all values in SI.
     versions : dict
         Versions of catenaria, Python, NumPy, SciPy and Numba.
+    audit : Audit
+        What an audit of the other fields found; empty until there was one.
     """
 
     name: str
@@ -334,3 +338,4 @@ class FormResult:
     stages: tuple[Stage, ...]
     inputs: dict[str, Any]
     versions: dict[str, str]
+    audit: Audit = NOT_AUDITED

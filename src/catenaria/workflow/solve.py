@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
+from catenaria.audit import audit_result
 from catenaria.errors import UnsupportedError
 from catenaria.formfinding.direct import Direct
 from catenaria.formfinding.dynamic_equilibrium import DynamicEquilibrium
@@ -37,6 +39,7 @@ def solve(
     Returns
     -------
     FormResult
+        With the outcome of its audit.
 
     Raises
     ------
@@ -55,4 +58,5 @@ def solve(
     if progress is not None and need_compiling():
         progress(Progress("compiling", 1, 3))
         warm_up()
-    return METHODS[method](progress).find_form(line, start)
+    result = METHODS[method](progress).find_form(line, start)
+    return replace(result, audit=audit_result(result))

@@ -129,6 +129,44 @@ class Height:
 
 
 @dataclass(frozen=True)
+class WireHeight:
+    """The height of a wire where a dropper is clamped to it.
+
+    Parameters
+    ----------
+    wire : Chain
+        The wire.
+    s : IntArray, shape (n,)
+        Indices of the clamps' sliding coordinates.
+    element : IntArray, shape (n,)
+        Element in which each clamp is: discrete state.
+    """
+
+    wire: Chain
+    s: IntArray
+    element: IntArray
+
+    def value(self, t: float, z: FloatArray) -> FloatArray:
+        """Return the heights [m]."""
+        return self.wire.evaluate(z, z[self.s], self.element).r[:, 2]
+
+    def columns(self) -> IntArray:
+        """Return the vertical coordinates of the element, then the sliding coordinate."""
+        ends = np.concatenate((self.wire.nodes[self.element], self.wire.nodes[self.element + 1]), axis=1)
+        return np.concatenate((ends[:, 2::3], self.s[:, None]), axis=1)
+
+    def gradient(self, t: float, z: FloatArray) -> FloatArray:
+        """Return N and the slope."""
+        point = self.wire.evaluate(z, z[self.s], self.element)
+        return np.concatenate((point.N, point.r1[:, 2:]), axis=1)
+
+    def relocate(self, z: FloatArray) -> WireHeight | None:
+        """Return the measure in the elements that fit z, or None."""
+        element = self.wire.relocate(z[self.s], self.element)
+        return None if np.array_equal(element, self.element) else replace(self, element=element)
+
+
+@dataclass(frozen=True)
 class DropperForce:
     """T_md - G of eq. (23): what an upper cable carries besides the dropper that will hang there.
 

@@ -1,0 +1,107 @@
+"""The whole line at once: both wires and all droppers in one Newton iteration.
+
+In the plane it must give what the staged direct method gives, as every dropper's height is prescribed; its
+droppers are bars with unknown lengths instead of cables with driven ends.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from catenaria.catenary.green_bar import stretch
+from catenaria.discretise.from_line import contact_wire_setup, messenger_wire_setup
+from catenaria.discretise.guess import guess_equilibrium
+from catenaria.discretise.line_model import LineModel, build_line_model, copy_wire
+from catenaria.discretise.wire_model import build_wire_model
+from catenaria.formfinding.static_problem import StaticProblem
+from catenaria.line import Line
+from catenaria.mechanics.loads.gravity import Ramp
+from catenaria.solvers.newton import NewtonOptions, Root, solve_newton
+
+FloatArray = NDArray[np.float64]
+
+_CORRECTION, _FORCE = 1e-9, 1e-5  # m and N: Newton corrections that count as none
+_OPTIONS = NewtonOptions(max_iterations=30, permc_spec="NATURAL")
+
+
+@dataclass(frozen=True)
+class CoupledForm:
+    """The line in equilibrium with all targets met.
+
+    Attributes
+    ----------
+    model : LineModel
+        The line.
+    z : FloatArray
+        Its unknowns.
+    length, unstressed_length : FloatArray, shape (n,)
+        Distances of the wire axes at the droppers, and lengths of the droppers without force [m].
+    on_contact, on_messenger : FloatArray, shape (n, 3)
+        Forces of droppers and clamps on the wires [N].
+    iterations : int
+        Newton iterations.
+    """
+
+    model: LineModel
+    z: FloatArray
+    length: FloatArray
+    unstressed_length: FloatArray
+    on_contact: FloatArray
+    on_messenger: FloatArray
+    iterations: int
+
+
+def find_coupled_form(line: Line) -> CoupledForm:
+    """Find the form of a line with guided droppers all at once.
+
+    Parameters
+    ----------
+    line : Line
+        What the engineer describes.
+
+    Returns
+    -------
+    CoupledForm
+
+    Raises
+    ------
+    NotConvergedError
+        If Newton's method does not converge.
+    """
+    model, z = guess_line(line)
+    root = solve_newton(StaticProblem(model.to_find(z), _CORRECTION, _FORCE), z, _OPTIONS)
+    return _form(model, root)
+
+
+def guess_line(line: Line) -> tuple[LineModel, FloatArray]:
+    """Return the line and a first guess of its equilibrium: two taut strings with droppers between them."""
+    contact = replace(contact_wire_setup(line), gravity_ramp=Ramp(0.0))
+    lower = build_wire_model(contact)
+    below = guess_equilibrium(lower)
+    force = -below[lower.clamp_force[:, 2]]
+    messenger = replace(messenger_wire_setup(line, force, contact.droppers.target), gravity_ramp=Ramp(0.0))
+    upper = build_wire_model(messenger)
+    above = guess_equilibrium(upper)
+    model = build_line_model(contact, messenger)
+    z = model.unknowns.start.copy()
+    copy_wire(model.contact, lower, below, z)
+    copy_wire(model.messenger, upper, above, z)
+    z[model.length] = _distance(model, z) / stretch(force, contact.droppers.section.EA)
+    return model, z
+
+
+def _distance(model: LineModel, z: FloatArray) -> FloatArray:
+    """Return the distances between the clamps [m]."""
+    below, above = (hung.wire.evaluate(z, z[hung.clamp_s]).r for hung in (model.contact, model.messenger))
+    return np.linalg.norm(above - below, axis=1)
+
+
+def _form(model: LineModel, root: Root) -> CoupledForm:
+    z = root.y
+    on_contact, on_messenger = model.droppers(z, clamped=False).loads(z)
+    return CoupledForm(
+        model, z, _distance(model, z), z[model.length], on_contact, on_messenger, root.corrections.size
+    )

@@ -1,0 +1,60 @@
+"""Lines that cannot be built are refused, with both methods, and the droppers are named."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+
+from catenaria.errors import InfeasibleError
+from catenaria.line import Line
+from catenaria.workflow import solve
+
+Change = dict[str, Any]
+Vary = Callable[[Change], Line]
+
+
+def spans(heights: tuple[float, ...]) -> Change:
+    span = {
+        "length": 65.0,
+        "droppers": {"positions": (4.0, 13.5, 23.0, 32.5, 42.0, 51.5, 61.0)},
+        "contact_wire_height": heights,
+    }
+    support = {"contact_wire": {"height": 0.0}, "messenger_wire": {"height": 1.5}}
+    return {"spans": (span,), "supports": (support, support)}
+
+
+LEVEL = (0.0,) * 7
+DEEP = (0.0, 0.0, 0.0, -0.06, 0.0, 0.0, 0.0)
+CASES: dict[str, tuple[Change, str]] = {
+    "pushed": (spans(DEEP), r"compression: 4 \(-10\d(\.\d+)? N\)\. .*pre-sag"),
+    "slack": (
+        spans(LEVEL) | {"messenger_wire.tension.force": 4000.0},
+        r"upside down: 3 \(.*\), 4 \(.*\), 5 \([^,]*\)\. .*tension",
+    ),
+    "long clamps": (
+        spans(LEVEL) | {"dropper.clamp_height_top": 0.5, "dropper.clamp_height_bottom": 0.48},
+        r"cut to nothing: 4 \(-0\.01.* m\)\. .*clamp heights",
+    ),
+}
+FEASIBLE: dict[str, Change] = {
+    "pulled": spans((0.0, 0.0, 0.0, -0.02, 0.0, 0.0, 0.0)),
+    "taut enough": spans(LEVEL) | {"messenger_wire.tension.force": 6000.0},
+    "short clamps": spans(LEVEL) | {"dropper.clamp_height_top": 0.5, "dropper.clamp_height_bottom": 0.45},
+}
+
+
+@pytest.mark.parametrize("method", ["direct", "dynamic"])
+@pytest.mark.parametrize(("change", "message"), CASES.values(), ids=CASES)
+def test_what_cannot_be_built_is_refused(vary: Vary, change: Change, message: str, method: str) -> None:
+    with pytest.raises(InfeasibleError, match=message):
+        solve(vary(change), method=method)
+
+
+@pytest.mark.parametrize("change", FEASIBLE.values(), ids=FEASIBLE)
+def test_what_can_just_be_built_is_not_refused(vary: Vary, change: Change) -> None:
+    droppers = solve(vary(change)).droppers
+    assert droppers.cut_length.min() > 0.0
+    assert droppers.force_bottom.min() > 0.0
+    assert min(droppers.cut_length.min(), droppers.force_bottom.min() / 200.0) < 0.3  # near the limit

@@ -1,0 +1,138 @@
+"""From a line or its file to a result: what is accepted, what is refused, what is said on the way."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from itertools import groupby
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from catenaria.errors import InconsistentInputError, LineFileError, UnsupportedError
+from catenaria.line import Line
+from catenaria.results import FormResult
+from catenaria.workflow import METHODS, Progress, solve
+
+Vary = Callable[[dict[str, Any]], Line]
+
+STAGES = ["contact wire", "messenger wire", "lengths"]
+
+
+def test_a_file_and_its_line_give_the_same(small_file: Path, small_result: FormResult) -> None:
+    for path in (small_file, str(small_file)):
+        again = solve(path)
+        np.testing.assert_array_equal(again.droppers.length, small_result.droppers.length)
+        assert again.inputs == small_result.inputs
+
+
+def test_another_line_gives_another_result(vary: Vary, small: Line, small_result: FormResult) -> None:
+    data = small.model_dump()
+    data["gravity"] = 9.9
+    assert not np.array_equal(solve(Line.model_validate(data)).droppers.length, small_result.droppers.length)
+
+
+def test_direct_is_the_default(small: Line, small_result: FormResult) -> None:
+    assert small_result.method == "direct"
+    assert solve(small, method="dynamic").method == "dynamic"
+    assert small_result.histories == ()
+
+
+@pytest.mark.parametrize("method", ["", "Direct", "newton"])
+def test_an_unknown_method_is_refused_with_those_there_are(small: Line, method: str) -> None:
+    with pytest.raises(UnsupportedError) as refusal:
+        solve(small, method=method)
+    assert repr(method) in str(refusal.value)
+    assert all(name in str(refusal.value) for name in METHODS)
+
+
+def test_an_unknown_method_is_refused_before_the_file_is_read(tmp_path: Path) -> None:
+    with pytest.raises(UnsupportedError):
+        solve(tmp_path / "no file", method="newton")
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_an_unsupported_line_is_refused_before_solving(vary: Vary, method: str) -> None:
+    heard: list[Progress] = []
+    with pytest.raises(UnsupportedError, match="contact_wire.tension.pulled"):
+        solve(vary({"contact_wire.tension.pulled": "end"}), method=method, progress=heard.append)
+    assert heard == []
+
+
+def test_a_missing_or_broken_file_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(LineFileError):
+        solve(tmp_path / "missing.yaml")
+    broken = tmp_path / "broken.yaml"
+    broken.write_text("format: 1\nname: [", encoding="utf-8")
+    with pytest.raises(LineFileError):
+        solve(broken)
+
+
+def stages(heard: list[Progress]) -> list[tuple[str, int]]:
+    """Return the stages in the order in which they were heard, compiling left out."""
+    names = [(progress.stage, progress.stage_number) for progress in heard if progress.stage != "compiling"]
+    return [name for name, _ in groupby(names)]
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_stages_are_told_in_order(small: Line, method: str) -> None:
+    heard: list[Progress] = []
+    solve(small, method=method, progress=heard.append)
+    assert stages(heard)[:3] == [(name, number) for number, name in enumerate(STAGES, start=1)]
+    assert len({progress.stage_count for progress in heard}) == 1
+    elapsed = [progress.elapsed for progress in heard if progress.stage != "compiling"]
+    assert elapsed == sorted(elapsed)
+    assert stages(heard[::-1])[:3] != stages(heard)[:3]
+
+
+def test_the_dynamic_method_tells_every_step(small: Line) -> None:
+    heard: list[Progress] = []
+    result = solve(small, method="dynamic", progress=heard.append)
+    for history in result.histories:
+        steps = [progress for progress in heard if progress.stage == history.step and progress.step > 0]
+        np.testing.assert_array_equal([step.time for step in steps], history.time[1:])
+        np.testing.assert_array_equal([step.step for step in steps], np.arange(1, history.time.size))
+        assert {step.worst_control for step in steps} <= set(history.control_name)
+        worst = steps[-1].worst_error_in_bands
+        errors = {
+            e
+            for e, name in zip(history.error[-1], history.control_name, strict=True)
+            if name == steps[-1].worst_control
+        }
+        assert worst == pytest.approx(np.abs(errors.pop()) / band(result, steps[-1].worst_control))
+
+
+def band(result: FormResult, name: str) -> float:
+    controls = result.controls
+    return float(controls.dead_band[controls.name.index(name)])
+
+
+def test_a_listener_that_fails_ends_the_run(small: Line) -> None:
+    """Nothing swallows what a listener raises: that is how Ctrl-C gets out."""
+
+    def failing(progress: Progress) -> None:
+        if progress.stage == "messenger wire":
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        solve(small, method="dynamic", progress=failing)
+
+
+@pytest.mark.parametrize("first", METHODS)
+@pytest.mark.parametrize("second", METHODS)
+def test_each_method_starts_from_each(small: Line, first: str, second: str) -> None:
+    """The second run has next to nothing to do."""
+    begun = solve(small, method=first)
+    again = solve(small, method=second, start=begun)
+    np.testing.assert_allclose(again.droppers.length, begun.droppers.length, atol=1e-3)
+    work = max(counter.steps for counter in again.counters)
+    assert work <= max(counter.steps for counter in solve(small, method=second).counters)
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_a_start_of_another_line_is_refused(
+    vary: Vary, small_result: FormResult, example: Path, method: str
+) -> None:
+    with pytest.raises(InconsistentInputError, match="has 2 droppers, the line has 21"):
+        solve(example, method=method, start=small_result)
