@@ -35,7 +35,7 @@ CHANGES: dict[str, dict[str, Any]] = {
 }
 
 
-@pytest.fixture(params=CHANGES.values(), ids=CHANGES)
+@pytest.fixture(params=CHANGES.values(), ids=list(CHANGES))
 def pairs(request: pytest.FixtureRequest, variant: Callable[..., Line]) -> tuple[Pair, Pair]:
     """Models of both steps with their solutions."""
     line = variant(request.param)

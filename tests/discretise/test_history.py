@@ -23,7 +23,7 @@ STRETCH = 1.001
 
 
 def states(model: WireModel) -> tuple[FloatArray, FloatArray]:
-    """Return unknowns and rates at 0, 2.5 and 6 s: laid out at rest, stretched and flying, near equilibrium."""
+    """Return unknowns and rates: laid out at rest, stretched and flying, near equilibrium."""
     start = model.system.unknowns.start
     stretched, flying = start.copy(), np.zeros_like(start)
     stretched[model.wire.nodes[:, 0]] *= STRETCH

@@ -94,7 +94,7 @@ def test_a_profile_has_all_nodes_and_ascends(arc: Laid) -> None:
 
 
 def mean_tension(start: FloatArray, end: FloatArray) -> FloatArray:
-    """Return the mean of EA (u^2 - 1) u/2 with u = 1 + 2 a s, by its antiderivative EA (u^4/4 - u^2/2)/(4 a)."""
+    """Return the mean of EA (u^2 - 1) u/2, u = 1 + 2 a s; its antiderivative is EA (u^4/4 - u^2/2)/(4 a)."""
 
     def integral(s: FloatArray) -> FloatArray:
         u = 1.0 + 2.0 * GROWTH * s
@@ -160,7 +160,7 @@ def test_a_mirrored_cable_has_the_mirrored_profile(kinked: Laid, along: Along) -
 
 
 def parabola(depth: float) -> Profile:
-    """Sample z = depth ((x/5)^2 - 1) from -5 to 5 m: below the chord between any a and b by depth ((b-a)/10)^2."""
+    """Sample z = depth ((x/5)^2 - 1) from -5 to 5 m: depth ((b - a)/10)^2 below its chord from a to b."""
     x = np.linspace(-5.0, 5.0, 2001)
     none = np.zeros_like(x)
     return Profile(x + 5.0, x, none, depth * ((x / 5.0) ** 2 - 1.0), none, none, none, none)

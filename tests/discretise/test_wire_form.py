@@ -50,7 +50,7 @@ def test_sag_between_equal_bays_is_that_of_a_clamped_tensioned_beam(result: Form
 
 
 def test_one_dropper_leaves_two_bays_to_the_supports(variant: Vary) -> None:
-    """Each bay is level at the dropper, by symmetry; at the support it turns half of its angle, the tail the rest."""
+    """Each bay is level at the dropper; at the support it turns half of its angle, its tail the rest."""
     sag = solve(short_line(variant, 20.0, (10.0,))).wires[0].sag
     assert sag == pytest.approx(0.75 * held_depth(10.0) + 0.25 * pinned_depth(10.0), rel=0.01)
     assert held_depth(10.0) < sag < pinned_depth(10.0)

@@ -88,7 +88,7 @@ def case(request: pytest.FixtureRequest) -> tuple[Line, FormResult]:
 def wire_weight(line: Line, result: FormResult, which: int) -> float:
     """Return the weight of a wire with both tails: its unstressed length is what is laid out at first [N]."""
     wire = (line.contact_wire, line.messenger_wire)[which]
-    rhoA = line.conductors[wire.conductor].density * line.conductors[wire.conductor].area
+    rhoA = line.conductors[wire.conductor].rhoA
     start_x = result.wires[which].start_x
     return float(rhoA * line.gravity * (start_x[-1] - start_x[0]))
 
@@ -142,12 +142,12 @@ def test_a_wire_pulls_both_ways(case: tuple[Line, FormResult]) -> None:
 
 def clamp_and_dropper_weight(line: Line, result: FormResult) -> FloatArray:
     kind, dropper = line.dropper, line.conductors[line.dropper.conductor]
-    mass = dropper.density * dropper.area * result.droppers.length
+    mass = dropper.rhoA * result.droppers.length
     return line.gravity * (mass + kind.clamp_mass_top + kind.clamp_mass_bottom)
 
 
 def test_droppers_are_in_balance(case: tuple[Line, FormResult]) -> None:
-    """Eq. (23): top force is bottom force, weight and both clamps; to 1 mN of the stretched length's weight."""
+    """Eq. (23): top force is bottom force, weight and both clamps, whose stretch weighs 0.1 mN."""
     line, result = case
     droppers = result.droppers
     G = clamp_and_dropper_weight(line, result)
@@ -171,14 +171,14 @@ def check_string(line: Line, result: FormResult) -> None:
     order = np.argsort(x)
     x, height = x[order], height[order]
     conductor = line.conductors[contact.conductor]
-    w = conductor.density * conductor.area * line.gravity
+    w = conductor.rhoA * line.gravity
     bays, kink = np.diff(x), np.diff(np.diff(height) / np.diff(x))
     force = 0.5 * w * (bays[:-1] + bays[1:]) - contact.tension.force * kink
     force = force[np.isin(x[1:-1], droppers.x)]
     np.testing.assert_allclose(droppers.force_bottom, force, atol=1.5)
 
     conductor = line.conductors[messenger.conductor]
-    w = conductor.density * conductor.area * line.gravity
+    w = conductor.rhoA * line.gravity
     supports = np.array(line.support_x), np.array([support.messenger_height for support in line.supports])
     top = force + clamp_and_dropper_weight(line, result)
     z, _ = taut_string(droppers.x, supports, messenger.tension.force, w, (droppers.x, top))
@@ -209,12 +209,10 @@ def test_sags_are_those_of_the_textbook(name: str) -> None:
     line, result = solved(name, "direct")
     conductors, g = line.conductors, line.gravity
     contact, messenger = (conductors[key] for key in ("contact", "messenger"))
-    w = contact.density * contact.area * g
+    w = contact.rhoA * g
     bay = w * 9.5**2 / (8.0 * 15e3)
     assert result.wires[0].sag == pytest.approx(bay, rel=0.08)
-    carried = (
-        w + messenger.density * messenger.area * g + clamp_and_dropper_weight(line, result).mean() * 7 / 65.0
-    )
+    carried = w + messenger.rhoA * g + clamp_and_dropper_weight(line, result).mean() * 7 / 65.0
     assert result.wires[1].sag == pytest.approx(carried * 65.0**2 / (8.0 * 15e3), rel=0.08)
     assert result.wires[1].sag != pytest.approx(0.8 * carried * 65.0**2 / (8.0 * 15e3), rel=0.08)
 

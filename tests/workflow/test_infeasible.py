@@ -29,6 +29,10 @@ LEVEL = (0.0,) * 7
 DEEP = (0.0, 0.0, 0.0, -0.06, 0.0, 0.0, 0.0)
 CASES: dict[str, tuple[Change, str]] = {
     "pushed": (spans(DEEP), r"compression: 4 \(-10\d(\.\d+)? N\)\. .*pre-sag"),
+    "pushed hard": (
+        spans((-0.3,) * 7) | {"solver.dynamic.integrator.max_steps": 3000},
+        r"compression: 1 \(-\d+(\.\d+)? N\), 7 \(-",
+    ),
     "slack": (
         spans(LEVEL) | {"messenger_wire.tension.force": 4000.0},
         r"upside down: 3 \(.*\), 4 \(.*\), 5 \([^,]*\)\. .*tension",

@@ -55,7 +55,7 @@ def test_an_unknown_method_is_refused_before_the_file_is_read(tmp_path: Path) ->
 @pytest.mark.parametrize("method", METHODS)
 def test_an_unsupported_line_is_refused_before_solving(vary: Vary, method: str) -> None:
     heard: list[Progress] = []
-    with pytest.raises(UnsupportedError, match="contact_wire.tension.pulled"):
+    with pytest.raises(UnsupportedError, match=r"contact_wire\.tension\.pulled"):
         solve(vary({"contact_wire.tension.pulled": "end"}), method=method, progress=heard.append)
     assert heard == []
 
