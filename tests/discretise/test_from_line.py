@@ -107,7 +107,8 @@ def test_heights_go_to_their_droppers(variant: Vary) -> None:
 def test_the_contact_wire_is_held_where_the_line_says(variant: Vary) -> None:
     held = {"contact_wire": {"height": 5.3}, "messenger_wire": {"encumbrance": 1.4}}
     free = {"messenger_wire": {"height": 6.7}}
-    line = variant({"supports": (held, free, held, held)})
+    span = variant({}).model_dump()["spans"][0] | {"contact_wire_height": 5.3}
+    line = variant({"supports": (held, free, held, held), "spans": (span,) * 3})
     setup = contact_wire_setup(line)
     np.testing.assert_allclose(setup.support_x, [0.0, 130.0, 195.0])
     assert setup.height == 5.3

@@ -57,8 +57,10 @@ def check_near(model: WireModel, guess: FloatArray, solved: FloatArray) -> None:
     off = guess - solved
     assert np.abs(off[model.wire.nodes[:, 1:3]]).max() < 8e-3
     assert np.abs(off[model.wire.nodes[:, 3:]]).max() < 0.04  # the string kinks at a support by 0.05
-    for along in (model.wire.nodes[:, 0], model.clamp_s, model.support_s, model.pull):
+    for along in (model.wire.nodes[:, 0], model.support_s, model.pull):
         assert np.abs(off[along]).max() < 0.02
+    slid = 0.0 if model.setup.droppers.guided else 0.05  # frictionless clamps slide down the slope
+    assert np.abs(off[model.clamp_s]).max() < 0.02 + slid
     assert np.abs(off[model.dropper_travel]).max() < 8e-3
     assert np.abs(off[model.clamp_force[:, 2]]).max() < 1.5
     assert np.abs(off[model.free_force[:, 2]]).max() < 3.0  # a cable's own weight is 1.3 N

@@ -18,7 +18,7 @@ from catenaria.errors import InconsistentInputError
 from catenaria.line import Line
 from catenaria.results import FormResult
 from catenaria.results.form import Stage
-from catenaria.workflow import solve
+from catenaria.workflow import METHODS, solve
 
 FloatArray = NDArray[np.float64]
 Vary = Callable[[dict[str, Any]], Line]
@@ -157,29 +157,46 @@ def test_another_place_along_the_track_is_refused(variant: Vary, earlier: Stage)
     refused(model_of(variant({"start_chainage": 10.0})), earlier, "supports .* up to 10 m")
 
 
-def test_one_more_held_support_is_refused_by_name(line: Line, variant: Vary, result: FormResult) -> None:
-    """The contact wire is held where it was not before: the lists have other lengths."""
-    held = tuple(support.model_dump() | {"contact_wire": {"height": 0.0}} for support in line.supports)
+@pytest.mark.parametrize("method", METHODS)
+def test_supports_that_hold_another_number_of_wires_are_refused(
+    line: Line, variant: Vary, result: FormResult, method: str
+) -> None:
+    """Both ways: held where it was free before, and free where it was held."""
+    held = variant({"supports": [s.model_dump() | {"contact_wire": {"height": 0.0}} for s in line.supports]})
     with pytest.raises(InconsistentInputError):
-        solve(variant({"supports": held}), start=result)
+        solve(held, method=method, start=result)
+    with pytest.raises(InconsistentInputError):
+        solve(line, method=method, start=solve(held))
 
 
-@pytest.mark.parametrize("which", ["contact", "messenger"])
-def test_other_support_heights_are_refused_or_solved(variant: Vary, result: FormResult, which: str) -> None:
-    """An earlier result 0.1 m lower must not be taken for one of this line: refused, or solved anew."""
-    lift = {"contact": (0.1, 1.5), "messenger": (0.0, 1.6)}[which]
-    both = {"contact_wire": {"height": lift[0]}, "messenger_wire": {"height": lift[1]}}
-    free = {"messenger_wire": {"height": lift[1]}}
-    span = SPAN | {"contact_wire_height": lift[0]}
-    line = variant({"supports": (both, free, free, both), "spans": (span,) * 3})
-    try:
-        again = solve(line, start=result)
-    except InconsistentInputError as error:
-        assert "earlier result" in str(error)  # noqa: PT017
-    else:
-        np.testing.assert_allclose(again.droppers.length, solve(line).droppers.length, atol=1e-7)
+HIGHER = {"contact": (0.1, 1.5), "messenger": (0.0, 1.6)}
 
 
-def test_a_result_without_the_step_is_refused(line: Line, result: FormResult) -> None:
+@pytest.fixture(params=HIGHER.values(), ids=list(HIGHER))
+def higher(request: pytest.FixtureRequest, variant: Vary) -> Line:
+    """The example with one of its wires 0.1 m higher."""
+    low, high = request.param
+    free = {"messenger_wire": {"height": high}}
+    both = free | {"contact_wire": {"height": low}}
+    return variant(
+        {"supports": (both, free, free, both), "spans": (SPAN | {"contact_wire_height": low},) * 3}
+    )
+
+
+def test_other_heights_are_found_anew_by_the_direct_method(higher: Line, result: FormResult) -> None:
+    again, alone = solve(higher, start=result), solve(higher)
+    np.testing.assert_allclose(again.droppers.length, alone.droppers.length, atol=1e-9)
+    np.testing.assert_allclose(again.droppers.height, alone.droppers.height, atol=1e-9)
+    assert np.abs(alone.droppers.length - result.droppers.length).min() > 0.09
+
+
+def test_other_heights_are_refused_by_the_dynamic_method(higher: Line, result: FormResult) -> None:
+    """A motion cannot begin where its wire is not."""
+    with pytest.raises(InconsistentInputError, match=r"0\.1 m"):
+        solve(higher, method="dynamic", start=result)
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_a_result_without_the_step_is_refused(line: Line, result: FormResult, method: str) -> None:
     with pytest.raises(InconsistentInputError, match="no step"):
-        solve(line, start=replace(result, stages=result.stages[:1]))
+        solve(line, method=method, start=replace(result, stages=result.stages[1:]))
