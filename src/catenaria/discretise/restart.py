@@ -14,7 +14,7 @@ from catenaria.mechanics.chain import Chain, Section
 from catenaria.mechanics.loads.gravity import Ramp
 from catenaria.mechanics.system import System
 from catenaria.mechanics.unknowns import Unknowns
-from catenaria.results.form import Stage
+from catenaria.results.form import FormResult, Stage
 
 FloatArray = NDArray[np.float64]
 
@@ -24,6 +24,20 @@ _TOLERANCE = 1e-6  # m by which lengths and joints of an earlier result may diff
 def with_full_gravity(setup: WireSetup) -> WireSetup:
     """Return the setup with full gravity from the start: an interim configuration carries its weight."""
     return replace(setup, gravity_ramp=Ramp(0.0))
+
+
+def stage_of(result: FormResult, step: str) -> Stage:
+    """Return the final state of one step of an earlier result.
+
+    Raises
+    ------
+    InconsistentInputError
+        If there is none.
+    """
+    for candidate in result.stages:
+        if candidate.step == step:
+            return candidate
+    raise InconsistentInputError(f"the earlier result has no step {step!r} to start from")
 
 
 def start_from(model: WireModel, stage: Stage) -> WireModel:
@@ -51,6 +65,12 @@ def start_from(model: WireModel, stage: Stage) -> WireModel:
         raise InconsistentInputError(
             f"the earlier result has {stage.node_count.size - 1} droppers, the line has {len(chains) - 1}"
         )
+    places = np.concatenate((model.support_s, model.clamp_s))
+    if places.size != stage.sliding_coordinate.size:
+        raise InconsistentInputError(
+            f"the {model.setup.name} runs through {stage.sliding_coordinate.size} joints in the earlier result, "
+            f"through {places.size} in the line"
+        )
     z = model.system.unknowns.start.copy()
     ends = np.cumsum(stage.node_count)
     for name, chain, first, last in zip(stage.chain, chains, ends - stage.node_count, ends, strict=True):
@@ -61,7 +81,7 @@ def start_from(model: WireModel, stage: Stage) -> WireModel:
             )
         nodes = np.hstack((stage.position[first:last], stage.slope[first:last]))
         z[chain.nodes] = _interpolate(knots, nodes, np.minimum(chain.knots, knots[-1]))
-    z[np.concatenate((model.support_s, model.clamp_s))] = stage.sliding_coordinate
+    z[places] = stage.sliding_coordinate
     z[np.concatenate((model.pull, model.dropper_travel))] = stage.parameter
     z[model.multipliers] = stage.multiplier
     _refuse_elsewhere(model, z)

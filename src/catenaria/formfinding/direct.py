@@ -14,13 +14,13 @@ from numpy.typing import NDArray
 
 from catenaria.discretise.from_line import contact_wire_setup, messenger_wire_setup
 from catenaria.discretise.guess import guess_equilibrium
-from catenaria.discretise.restart import start_from
+from catenaria.discretise.restart import stage_of, start_from
 from catenaria.discretise.wire_model import WireModel, build_wire_model
 from catenaria.discretise.wire_setup import WireSetup
 from catenaria.errors import NotConvergedError
 from catenaria.formfinding.progress import Listener, Progress
 from catenaria.formfinding.static_problem import StaticProblem
-from catenaria.formfinding.third_step import Rest, clamp_height, foot_force, gather
+from catenaria.formfinding.third_step import Rest, clamp_height, foot_force, gather, refuse_compression
 from catenaria.line import Line
 from catenaria.mechanics.controls.control import Controls
 from catenaria.mechanics.controls.target import Targets
@@ -72,8 +72,10 @@ class Direct:
         begin = perf_counter()
         self._tell("contact wire", 1, begin)
         contact, contact_work = _solve(contact_wire_setup(line), start)
+        force = foot_force(contact)
+        refuse_compression(force)
         self._tell("messenger wire", 2, begin)
-        messenger_setup = messenger_wire_setup(line, foot_force(contact), clamp_height(contact))
+        messenger_setup = messenger_wire_setup(line, force, clamp_height(contact))
         messenger, messenger_work = _solve(messenger_setup, start)
         self._tell("lengths", 3, begin)
         reason = f"Newton's method converged in {contact_work.steps} and {messenger_work.steps} iterations"
@@ -90,8 +92,7 @@ def _solve(setup: WireSetup, start: FormResult | None) -> tuple[Rest, Counters]:
     if start is None:
         z = guess_equilibrium(model)
     else:
-        earlier = next(stage for stage in start.stages if stage.step == setup.name)
-        z = start_from(model, earlier).system.unknowns.start
+        z = start_from(model, stage_of(start, setup.name)).system.unknowns.start
     root = _root(model, z)
     iterations = root.corrections.size
     wall = perf_counter() - begin

@@ -15,16 +15,22 @@ from time import perf_counter
 
 from catenaria.discretise.from_line import contact_wire_setup, messenger_wire_setup
 from catenaria.discretise.history import control_names, history
-from catenaria.discretise.restart import start_from, with_full_gravity
+from catenaria.discretise.restart import stage_of, start_from, with_full_gravity
 from catenaria.discretise.wire_model import WireModel, build_wire_model
 from catenaria.discretise.wire_setup import WireSetup
-from catenaria.errors import InconsistentInputError
 from catenaria.formfinding.controlled_motion import Motion, move, system_of, tolerances
 from catenaria.formfinding.progress import Listener, Progress
 from catenaria.formfinding.settling import Settled, largest_error
-from catenaria.formfinding.third_step import Rest, clamp_height, foot_force, gather, support_names
+from catenaria.formfinding.third_step import (
+    Rest,
+    clamp_height,
+    foot_force,
+    gather,
+    refuse_compression,
+    support_names,
+)
 from catenaria.line import Line
-from catenaria.results.form import Counters, FormResult, History, Stage
+from catenaria.results.form import Counters, FormResult, History
 from catenaria.solvers.outcome import Options, Step
 
 _STAGES = 3
@@ -63,10 +69,13 @@ class DynamicEquilibrium:
             If a step does not come to rest.
         InconsistentInputError
             If `start` does not fit the line.
+        InfeasibleError
+            If the schedule cannot be built.
         """
         begin = perf_counter()
         contact = self._step(line, contact_wire_setup(line), 1, start, begin)
         force, height = foot_force(_rest(contact)), clamp_height(_rest(contact))
+        refuse_compression(force)
         messenger = self._step(line, messenger_wire_setup(line, force, height), 2, start, begin)
         self._tell(Progress("lengths", 3, _STAGES, elapsed=perf_counter() - begin))
         motions = (contact, messenger)
@@ -87,7 +96,7 @@ class DynamicEquilibrium:
         if start is None:
             model = build_wire_model(setup)
         else:
-            earlier = _stage_of(start, setup.name)
+            earlier = stage_of(start, setup.name)
             model = start_from(build_wire_model(with_full_gravity(setup)), earlier)
         options = line.solver.dynamic
         return move(
@@ -160,10 +169,3 @@ def _counters(motion: Motion) -> Counters:
         factorisations=work.factorisations,
         unknowns=motion.system.size,
     )
-
-
-def _stage_of(result: FormResult, name: str) -> Stage:
-    for candidate in result.stages:
-        if candidate.step == name:
-            return candidate
-    raise InconsistentInputError(f"the earlier result has no step {name!r} to start from")

@@ -152,33 +152,35 @@ def _clamps(step: Rest) -> FloatArray:
     return step.z[np.array([cable.nodes[0, :3] for cable in step.model.cables])]
 
 
+def refuse_compression(force_bottom: FloatArray) -> None:
+    """Refuse a contact wire that droppers would have to push down.
+
+    Raises
+    ------
+    InfeasibleError
+        Naming the droppers, and what would help.
+    """
+    _refuse(force_bottom < 0.0, force_bottom, "N", "would be in compression", _PUSHED)
+
+
 def refuse_impossible(droppers: Droppers) -> None:
     """Refuse a schedule that cannot be built.
-
-    Parameters
-    ----------
-    droppers : Droppers
-        What was found.
 
     Raises
     ------
     InfeasibleError
         Naming droppers that would be in compression or without length, and what would help.
     """
-    for wrong, size, unit, what, advice in (
-        (droppers.force_bottom < 0.0, droppers.force_bottom, "N", "would be in compression", _PUSHED),
-        (
-            droppers.messenger_height <= droppers.height,
-            droppers.length,
-            "m",
-            "would stand upside down",
-            _SLACK,
-        ),
-        (droppers.cut_length <= 0.0, droppers.cut_length, "m", "would be cut to nothing", _SHORT),
-    ):
-        if np.any(wrong):
-            where = ", ".join(f"{i + 1} ({size[i]:.4g} {unit})" for i in np.flatnonzero(wrong))
-            raise InfeasibleError(f"droppers {what}: {where}. {advice}")
+    refuse_compression(droppers.force_bottom)
+    upside_down = droppers.messenger_height <= droppers.height
+    _refuse(upside_down, droppers.messenger_height - droppers.height, "m", "would stand upside down", _SLACK)
+    _refuse(droppers.cut_length <= 0.0, droppers.cut_length, "m", "would be cut to nothing", _SHORT)
+
+
+def _refuse(wrong: NDArray[np.bool_], size: FloatArray, unit: str, what: str, advice: str) -> None:
+    if np.any(wrong):
+        where = ", ".join(f"{i + 1} ({size[i]:.4g} {unit})" for i in np.flatnonzero(wrong))
+        raise InfeasibleError(f"droppers {what}: {where}. {advice}")
 
 
 _PUSHED = (
