@@ -16,15 +16,12 @@ from catenaria.discretise.from_line import contact_wire_setup, messenger_wire_se
 from catenaria.discretise.guess import guess_equilibrium
 from catenaria.discretise.line_model import LineModel, build_line_model, copy_wire
 from catenaria.discretise.wire_model import build_wire_model
-from catenaria.formfinding.static_problem import StaticProblem
+from catenaria.formfinding.static_problem import find_rest
 from catenaria.line import Line
 from catenaria.mechanics.loads.gravity import Ramp
-from catenaria.solvers.newton import NewtonOptions, Root, solve_newton
+from catenaria.solvers.newton import Root
 
 FloatArray = NDArray[np.float64]
-
-_CORRECTION, _FORCE = 1e-9, 1e-5  # m and N: Newton corrections that count as none
-_OPTIONS = NewtonOptions(max_iterations=30, permc_spec="NATURAL")
 
 
 @dataclass(frozen=True)
@@ -72,8 +69,7 @@ def find_coupled_form(line: Line) -> CoupledForm:
         If Newton's method does not converge.
     """
     model, z = guess_line(line)
-    root = solve_newton(StaticProblem(model.to_find(z), _CORRECTION, _FORCE), z, _OPTIONS)
-    return _form(model, root)
+    return _form(model, find_rest(model.to_find(z), z))
 
 
 def guess_line(line: Line) -> tuple[LineModel, FloatArray]:

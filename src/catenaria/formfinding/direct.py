@@ -19,7 +19,7 @@ from catenaria.discretise.wire_model import WireModel, build_wire_model
 from catenaria.discretise.wire_setup import WireSetup
 from catenaria.errors import NotConvergedError
 from catenaria.formfinding.progress import Listener, Progress
-from catenaria.formfinding.static_problem import StaticProblem
+from catenaria.formfinding.static_problem import find_rest
 from catenaria.formfinding.third_step import Rest, clamp_height, foot_force, gather, refuse_compression
 from catenaria.line import Line
 from catenaria.mechanics.controls.control import Controls
@@ -27,13 +27,11 @@ from catenaria.mechanics.controls.target import Targets
 from catenaria.mechanics.loads.gravity import Ramp
 from catenaria.mechanics.system import System
 from catenaria.results.form import Counters, FormResult
-from catenaria.solvers.newton import NewtonOptions, Root, solve_newton
+from catenaria.solvers.newton import Root
 
 FloatArray = NDArray[np.float64]
 
-_CORRECTION, _FORCE = 1e-9, 1e-5  # m and N: Newton corrections that count as none
 _BAND = (1e-3, 1e-6)  # N and m, within which targets count as met in the result
-_OPTIONS = NewtonOptions(max_iterations=30, permc_spec="NATURAL")
 
 
 @dataclass(frozen=True)
@@ -102,9 +100,8 @@ def _solve(setup: WireSetup, start: FormResult | None) -> tuple[Rest, Counters]:
 
 
 def _root(model: WireModel, z: FloatArray) -> Root:
-    problem = StaticProblem(statics(model.system, z), _CORRECTION, _FORCE)
     try:
-        return solve_newton(problem, z, _OPTIONS)
+        return find_rest(statics(model.system, z), z)
     except NotConvergedError as error:
         raise NotConvergedError(
             f"the {model.setup.name}: {error.reason}",

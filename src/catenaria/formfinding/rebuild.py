@@ -14,15 +14,13 @@ from numpy.typing import NDArray
 from catenaria.discretise.line_model import LineModel
 from catenaria.errors import NotConvergedError
 from catenaria.formfinding.coupled import guess_line
-from catenaria.formfinding.static_problem import StaticProblem
+from catenaria.formfinding.static_problem import find_rest
 from catenaria.line import Line
 from catenaria.results.form import FormResult
-from catenaria.solvers.newton import NewtonOptions, solve_newton
 
 FloatArray = NDArray[np.float64]
 
-_CORRECTION, _FORCE = 1e-9, 1e-5  # m and N: Newton corrections that count as none
-_OPTIONS = NewtonOptions(max_iterations=50, permc_spec="NATURAL")
+_ITERATIONS = 50
 
 
 @dataclass(frozen=True)
@@ -85,9 +83,8 @@ def rebuild(line: Line, result: FormResult) -> Rebuilt:
         z[hung.pull] = form.travel
     iterations = 0
     for may_push in (True, False):  # bars that cannot push may be slack, and without stiffness, at the start
-        problem = StaticProblem(model.as_built(z, may_push), _CORRECTION, _FORCE)
         try:
-            root = solve_newton(problem, z, _OPTIONS)
+            root = find_rest(model.as_built(z, may_push), z, _ITERATIONS)
         except NotConvergedError as error:
             reason, advice = f"the rebuilt line: {error.reason}", "checking the found lengths"
             raise NotConvergedError(reason, advice, error.partial) from error

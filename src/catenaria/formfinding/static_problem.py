@@ -12,8 +12,11 @@ from scipy.sparse import csc_matrix
 from catenaria.mechanics.state import State
 from catenaria.mechanics.system import System
 from catenaria.mechanics.unknowns import Kind
+from catenaria.solvers.newton import NewtonOptions, Root, solve_newton
 
 FloatArray = NDArray[np.float64]
+
+_CORRECTION, _FORCE = 1e-9, 1e-5  # m and N: Newton corrections that count as none
 
 
 @dataclass(frozen=True)
@@ -57,3 +60,24 @@ class StaticProblem:
         """Return the problem whose sliding joints are in the elements that fit y, or None."""
         system = self.system.relocate(y)
         return None if system is None else replace(self, system=system)
+
+
+def find_rest(system: System, z: FloatArray, max_iterations: int = 30) -> Root:
+    """Return where a system that is numbered along the line is at rest.
+
+    Parameters
+    ----------
+    system : System
+        With the discrete state that fits z.
+    z : FloatArray, shape (n,)
+        Where to start.
+    max_iterations : int
+        Limit of Newton iterations.
+
+    Raises
+    ------
+    NotConvergedError
+        See `catenaria.solvers.newton.solve_newton`.
+    """
+    options = NewtonOptions(max_iterations=max_iterations, permc_spec="NATURAL")
+    return solve_newton(StaticProblem(system, _CORRECTION, _FORCE), z, options)
