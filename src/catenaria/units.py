@@ -55,7 +55,11 @@ _MOMENT: Final = re.compile(r"([kM]?N)(?=m{1,2}(?![A-Za-z]))")
 
 # The units that lines are built with, by lower case.
 _SPELLED: Final = {
-    unit.lower(): unit for unit in ["m", "dm", "cm", "mm", "km", "um", "s", "ms", "min", "h", "g", "kg", "t", "N", "daN", "kN", "MN", "kgf", "Pa", "kPa", "MPa", "GPa"]
+    unit.lower(): unit
+    for unit in (
+        *("m", "dm", "cm", "mm", "km", "um", "s", "ms", "min", "h", "g", "kg", "t"),
+        *("N", "daN", "kN", "MN", "kgf", "Pa", "kPa", "MPa", "GPa"),
+    )
 }
 
 

@@ -32,6 +32,7 @@ def small_result(droppers: int) -> Any:
         for name, error in (("contact wire", -5.31), ("messenger wire", 21.5))
     ]
     return SimpleNamespace(
+        audit=SimpleNamespace(passed=True, findings=(), lines=lambda: ("Audit of equilibrium: passed.",) * 3),
         stop_reason="contact wire: at rest; messenger wire: at rest",
         droppers=SimpleNamespace(
             x=4.0 + 9.5 * n,

@@ -28,7 +28,11 @@ def test_version() -> None:
 def test_help_teaches() -> None:
     top, solve = run("--help").stdout, run("solve", "--help").stdout
     assert "catenaria solve examples/yang2017_three_span.yaml --method dynamic" in top
-    for text in ("droppers.csv", "--no-figures", "0 done, 1 not converged, 2 bad input"):
+    for text in (
+        "droppers.csv",
+        "--no-figures",
+        "0 done and audited, 1 not converged or audit failed, 2 bad input",
+    ):
         assert text in solve
 
 
@@ -101,8 +105,7 @@ def test_check_lists_every_fault_on_a_line_of_its_own(line: SimpleNamespace) -> 
 def test_check_says_what_is_not_solved_yet(line: SimpleNamespace) -> None:
     line.unsupported = UnsupportedError("a.yaml:4:3: track.curves: a curved track is not solved yet")
     outcome = run("check", "a.yaml")
-    assert outcome.exit_code == 2
-    assert "spans" in outcome.stdout
+    assert (outcome.exit_code, outcome.stdout) == (2, "")
     assert outcome.stderr == "a.yaml:4:3: track.curves: a curved track is not solved yet\n"
 
 

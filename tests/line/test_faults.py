@@ -48,7 +48,7 @@ SPOILT = [
     ),
     (
         "area: 120 mm^2\n",
-        "aera: 120 mm^2\n    area: 1\n",
+        "aera: 120 mm^2\n    area: 120 mm^2\n",
         "aera",
         "conductors.contact.aera",
         "did you mean area?",
@@ -166,14 +166,14 @@ SPOILT = [
         "  - messenger_wire: {height: -2 m}\n  - messenger_wire: {height: 1.5 m}\n",
         "-2 m",
         "supports[1].messenger_wire.height",
-        "more than 0 m",
+        "0.2 m or more",
     ),
     (
         "height: 0 m}\n    messenger_wire: {height: 1.5 m}\n  - m",
-        "height: 2 m}\n    messenger_wire: {height: 1.7 m}\n  - m",
-        "1.7 m",
+        "height: 0.4 m}\n    messenger_wire: {height: 0.35 m}\n  - m",
+        "0.35 m",
         "supports[0].messenger_wire.height",
-        "more than 2 m",
+        "more than 0.4 m",
     ),
     (
         "messenger_wire: {height: 1.5 m}\n  - m",
@@ -260,7 +260,7 @@ GOOD = [
     ("positions: [4, 13.5, 23, 32.5, 42, 51.5, 61]", "first: 4, spacing: 9.5, count: 7"),
     ("contact_wire_height: 0 m", "contact_wire_height: [0, 0, 0, 0, 0, 0, 0]"),
     ("      saturation: 100 N", "      saturation: 5.001 N"),
-    ("  - messenger_wire: {height: 1.5 m}\n  - m", "  - messenger_wire: {height: 1 mm}\n  - m"),
+    ("  - messenger_wire: {height: 1.5 m}\n  - m", "  - messenger_wire: {height: 200 mm}\n  - m"),
     ("largest_element: 2.4 m", "gauss_points: 3"),
     ("    density: 7710 kg/m^3\n", "    mass_per_length: 8 kg/m\n"),
 ]

@@ -28,6 +28,7 @@ def check(line: Annotated[Path, typer.Argument(metavar="LINE", help="Line file, 
 
     with failures_reported():
         described = load_line(line)
+        refuse_unsupported(described)
     console = Console(markup=False, highlight=False, emoji=False)
     sections = summarise(described)
     widest = max(len(label) for _, rows in sections for label, _ in rows)
@@ -40,8 +41,6 @@ def check(line: Annotated[Path, typer.Argument(metavar="LINE", help="Line file, 
         console.print(title, style="bold")
         console.print(table)
     console.print(f"{line}: no faults found.", soft_wrap=True)
-    with failures_reported():
-        refuse_unsupported(described)
 
 
 def schema() -> None:

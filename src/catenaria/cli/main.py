@@ -47,5 +47,5 @@ def describe(
 
 
 def main() -> None:
-    """Run the command line; ends with `SystemExit`, whose code is 0, 1 (not converged) or 2 (bad input)."""
+    """Run the command line; ends with `SystemExit`: 0, 1 (no result to trust) or 2 (bad input)."""
     app(prog_name="catenaria")

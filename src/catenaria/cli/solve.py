@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, NoReturn
 import typer
 from rich.console import Console
 
-from catenaria.cli.failures import BAD_INPUT, INTERRUPTED, complain, failures_reported
+from catenaria.cli.failures import BAD_INPUT, INTERRUPTED, NOT_CONVERGED, complain, failures_reported
 from catenaria.cli.progress import display_on
 from catenaria.cli.summary import show_result
 
@@ -44,13 +44,15 @@ def solve(
     Python read. The results of an earlier run are replaced as a whole; a folder with files of yours in it is
     refused.
 
-    Exit codes: 0 done, 1 not converged, 2 bad input, 130 interrupted. Nothing is written unless it is 0.
+    Exit codes: 0 done and audited, 1 not converged or audit failed, 2 bad input, 130 interrupted. Nothing is
+    written unless it is 0.
     """
     folder = Path("results") / line.stem if out is None else out
     console = Console(markup=False, highlight=False, emoji=False)
     began = time.perf_counter()
     with failures_reported():
         result = _find_form(line, method, start, folder, console)
+        _require_audited(result)
         files = _write(result, folder, console, figures=not no_figures)
     show_result(result, console)
     console.print(
@@ -77,6 +79,15 @@ def _whereabouts(latest: Progress | None) -> str:
     if latest is None:
         return "before the first step. Nothing was written"
     return f"in the stage '{latest.stage}' at {latest.time:.1f} s of simulated time. Nothing was written"
+
+
+def _require_audited(result: FormResult) -> None:
+    """End the command if the audit of the result failed."""
+    if not result.audit.passed:
+        for text in (*result.audit.lines(), *result.audit.findings):
+            complain(text)
+        complain("The audit failed, so nothing was written.")
+        raise typer.Exit(NOT_CONVERGED)
 
 
 def _write(result: FormResult, folder: Path, console: Console, *, figures: bool) -> tuple[Path, ...]:

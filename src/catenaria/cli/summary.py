@@ -22,7 +22,7 @@ def show_result(result: FormResult, console: Console) -> None:
     if hidden > 0:
         console.print(f"  ... and {hidden} more in droppers.csv\n")
     console.print(_wire_table(result))
-    for line in (*_error_lines(result), *_counter_lines(result)):
+    for line in (*_error_lines(result), *_counter_lines(result), *result.audit.lines()):
         console.print(line, soft_wrap=True)
 
 
@@ -44,7 +44,15 @@ def _dropper_table(result: FormResult) -> Table:
 
 
 def _wire_table(result: FormResult) -> Table:
-    table = _table("Wires", "", "tension [N]", "wanted [N]", "cut to [m]", "travel [mm]", "sag [mm]")
+    table = _table(
+        "Wires between their end supports",
+        "",
+        "tension [N]",
+        "wanted [N]",
+        "unstressed [m]",
+        "travel [mm]",
+        "sag [mm]",
+    )
     for wire in result.wires:
         table.add_row(
             wire.name,

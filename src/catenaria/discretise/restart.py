@@ -68,8 +68,8 @@ def start_from(model: WireModel, stage: Stage) -> WireModel:
     places = np.concatenate((model.support_s, model.clamp_s))
     if places.size != stage.sliding_coordinate.size:
         raise InconsistentInputError(
-            f"the {model.setup.name} runs through {stage.sliding_coordinate.size} joints in the earlier result, "
-            f"through {places.size} in the line"
+            f"the {model.setup.name} has {stage.sliding_coordinate.size} joints in the earlier result, "
+            f"{places.size} in the line"
         )
     z = model.system.unknowns.start.copy()
     ends = np.cumsum(stage.node_count)

@@ -62,7 +62,7 @@ def _wrong_counts(line: Line) -> Iterator[Problem]:
 
 
 def _wrong_heights(span: int, prescribed: int, released: int) -> Iterator[Problem]:
-    """Each prescribed height needs one dropper length that is released to fulfil it, and the other way round."""
+    """Each prescribed height needs one dropper length that is released to fulfil it."""
     if prescribed != released:
         difference = "more" if prescribed > released else "fewer"
         allowed = (

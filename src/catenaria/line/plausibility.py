@@ -72,7 +72,7 @@ def implausible_tensions(line: Line) -> Iterator[Problem]:
 
 
 def implausible_heights(line: Line) -> Iterator[Problem]:
-    """Find wanted heights far from where the contact wire is held, or hardly below the messenger's supports."""
+    """Find wanted heights far from where the contact wire is held, or near the messenger's supports."""
     low = dict(_low_supports(line))
     for i, least in low.items():
         allowed = f"{least:g} m or more, {_ROOM:g} m above the wanted height of the contact wire beside it"

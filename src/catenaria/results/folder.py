@@ -86,11 +86,14 @@ def require_replaceable(folder: str | os.PathLike[str]) -> Path:
     Raises
     ------
     InconsistentInputError
-        If it is a file, contains the current working folder, or holds a file that is not listed in its
+        If it is a file or cannot be made, contains the current working folder, or holds a file that is not listed in its
         manifest or was changed since.
     """
     target = Path(folder).resolve()
     if not target.exists():
+        above = next(parent for parent in target.parents if parent.exists())
+        if not (above.is_dir() and os.access(above, os.W_OK)):
+            raise InconsistentInputError(f"{folder} cannot be made: {above} is not writable")
         return target
     if not target.is_dir():
         raise InconsistentInputError(f"{folder} is a file. Name a folder for the output")
