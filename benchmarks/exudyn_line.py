@@ -1,10 +1,14 @@
 """The peer: form-finding of a plane line scripted around Exudyn's static solver.
 
-Exudyn has neither unknown lengths nor prescribed tensions, so the staged method is written out in Python: the
-contact wire is pinned at the wanted heights, its reactions are the droppers' forces, the messenger hangs under
-these, and the lengths lie between the two. Where the script could choose, it does what is fastest: plane
-ANCF cables, droppers as forces, the sparse solver with its pattern kept, warm restarts, and one loop for
-reference strain (by secants) and dropper weights together.
+Exudyn has neither unknown lengths nor prescribed tensions, so the staged method is written out in Python:
+the contact wire is pinned at the wanted heights, its reactions are the droppers' forces, the messenger hangs
+under these, and the lengths lie between the two. Where the script could choose, it does what is fastest:
+plane ANCF cables, droppers as forces, the sparse solver with its pattern kept, warm restarts, the module
+without range checks, and one loop for reference strain (by secants) and dropper weights together.
+
+The droppers are clamped to nodes, which are material points and move along the track by up to 2 mm as the
+wire takes its form, and the weight lacks the excess of the arc over its chord: hundredths of a millimetre in
+the lengths, which would cost time to mend. In `catenaria` the clamps keep their places.
 """
 
 from __future__ import annotations
@@ -13,6 +17,7 @@ import sys
 import warnings
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,7 +29,7 @@ sys.exudynFast = True  # pyright: ignore[reportAttributeAccessIssue]  # Exudyn's
 with warnings.catch_warnings():
     warnings.simplefilter("ignore", DeprecationWarning)
     import exudyn as exu
-    import exudyn.itemInterface as item
+    import exudyn.itemInterface as item  # noqa: N813
 
 FloatArray = NDArray[np.float64]
 
@@ -45,13 +50,26 @@ class PeerForm:
 
 @dataclass
 class Wire:
-    """A wire between pinned ends, held at height in points and loaded in points."""
+    """A wire between pinned ends, held at heights and loaded in points.
+
+    Parameters
+    ----------
+    conductor, x, height, gravity
+        What it is made of, its nodes along the track [m], their height before [m], and gravity [m/s^2].
+    strain_wanted : float
+        What the wanted tension strains it by; the mass of a tensioned metre follows.
+    measured_at : float
+        Where the tension is measured: in the field between the first support and the first dropper, where
+        the wire is straight. A wire that slides without friction has the same tension behind its support.
+    """
 
     conductor: Conductor
     x: FloatArray
     height: float
     gravity: float
-    mbs: exu.MainSystem = field(init=False)
+    strain_wanted: float
+    measured_at: float
+    mbs: Any = field(init=False)  # the types of Exudyn's stubs are modules
     strain: float = 0.0
     solves: int = 0
     newton: int = 0
@@ -64,14 +82,14 @@ class Wire:
         slope = item.NodePoint2DSlope1
         self.nodes = [self.mbs.AddNode(slope(referenceCoordinates=[x, self.height, 1, 0])) for x in self.x]
         self._elements = [self._element(i) for i in range(self.x.size - 1)]
-        for node in (self.nodes[0], self.nodes[-1]):
-            self._hold(node, 0, 0.0)
+        for end, axis in ((0, 0), (0, 1), (-1, 0), (-1, 1)):
+            self._hold(self.nodes[end], axis, 0.0)
 
     def _element(self, i: int) -> int:
         of = self.conductor
         cable = item.ObjectANCFCable2D(
             length=self.x[i + 1] - self.x[i],
-            massPerLength=of.rhoA,
+            massPerLength=of.rhoA / (1.0 + self.strain_wanted),
             bendingStiffness=of.EJ,
             axialStiffness=of.EA,
             nodeNumbers=self.nodes[i : i + 2],
@@ -118,9 +136,10 @@ class Wire:
 
     @property
     def tension(self) -> float:
-        """Axial force at the start of the wire [N]."""
-        force = exu.OutputVariableType.ForceLocal
-        return float(np.ravel(self.mbs.GetObjectOutputBody(self._elements[0], force, [0, 0, 0]))[0])
+        """Axial force where it is measured [N]."""
+        element = int(np.searchsorted(self.x, self.measured_at)) - 1
+        force, place = exu.OutputVariableType.ForceLocal, [self.measured_at - self.x[element], 0, 0]
+        return float(np.ravel(self.mbs.GetObjectOutputBody(self._elements[element], force, place))[0])
 
     @property
     def unknowns(self) -> int:
@@ -191,22 +210,26 @@ def _contact_wire(line: Line, grading: Grading, settings: exu.SimulationSettings
 
     _tighten(wire, line.contact_wire.tension.force, settle)
     outputs = [wire.mbs.GetObjectOutput(number, exu.OutputVariableType.Force) for number in held]
-    return wire, -np.array(outputs, dtype=np.float64).ravel()
+    return wire, np.array(outputs, dtype=np.float64).ravel()
 
 
 def _wire(line: Line, grading: Grading, contact: bool) -> Wire:
     """Return the wire on its supports; the reference strain is the first guess."""
     supports = [line.supports[i] for i in line.contact_support_indices] if contact else line.supports
-    x = np.array(line.support_x)[list(line.contact_support_indices)] if contact else np.array(line.support_x)
+    x = np.array(line.support_x)
+    if contact:
+        x = x[list(line.contact_support_indices)]
     what = line.contact_wire if contact else line.messenger_wire
     conductor = line.conductors[what.conductor]
-    centres = np.concatenate((x, line.dropper_x)) - x[0]
-    knots = x[0] + graded_knots(float(x[-1] - x[0]), centres, grading)
+    strain = what.tension.force / conductor.EA
+    start, end = x[0] - what.tail, x[-1] + what.tail
+    centres = np.concatenate((x, line.dropper_x)) - start
+    knots = start + graded_knots(float(end - start), centres, grading)
     heights = [s.contact_wire.height if contact and s.contact_wire else s.messenger_height for s in supports]
-    wire = Wire(conductor, knots, heights[0], line.gravity)
+    wire = Wire(conductor, knots, heights[0], line.gravity, strain, 0.5 * (x[0] + line.dropper_x[0]))
     for at, height in zip(x, heights, strict=True):
         wire.hold(at, height)
-    wire.set_strain(-what.tension.force / conductor.EA)
+    wire.set_strain(-strain)
     return wire
 
 
@@ -231,5 +254,6 @@ def _settings() -> exu.SimulationSettings:
     settings.linearSolver.reuseAnalyzedPattern = True
     settings.parallel.numberOfThreads = 1
     settings.staticSolver.verboseMode = 0
-    settings.solution.coordinatesSolution.writeToFile = False
+    settings.staticSolver.newton.relativeTolerance = 1e-6  # with its 1e-8 round-off spoils fine meshes
+    settings.solution.file.write = False
     return settings

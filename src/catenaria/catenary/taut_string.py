@@ -74,11 +74,14 @@ def taut_string(
 def _point_loads(
     x: FloatArray, a: FloatArray, b: FloatArray, at: FloatArray, P: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """Return moment and shear at x in spans from a to b under the loads that lie in them."""
-    x, a, b = x[:, None], a[:, None], b[:, None]
-    load = np.where((at > a) & (at < b), P, 0.0)
-    left = load * (b - at) / (b - a)  # reaction at a
-    beyond = x > at
-    moment = left * (x - a) - np.where(beyond, load * (x - at), 0.0)
-    shear = left - np.where(beyond, load, 0.0)
-    return moment.sum(axis=1), shear.sum(axis=1)
+    """Return moment and shear at x in spans from a to b under the loads that lie in them, by running sums."""
+    order = np.argsort(at, kind="stable")
+    place = at[order]
+    sums = np.zeros((2, at.size + 1))
+    np.cumsum((P[order], P[order] * place), axis=1, out=sums[:, 1:])
+    before_a = sums[:, np.searchsorted(place, a, side="right")]
+    load, moment = sums[:, np.searchsorted(place, b, side="left")] - before_a
+    left = (load * b - moment) / (b - a)  # reaction at a
+    passed, lever = sums[:, np.searchsorted(place, x, side="left")] - before_a
+    passed, lever = np.where(x > a, (passed, lever), 0.0)
+    return left * (x - a) - (passed * x - lever), left - passed
