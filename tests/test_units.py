@@ -16,6 +16,7 @@ from hypothesis import strategies as st
 from pydantic import TypeAdapter, ValidationError
 
 from catenaria.units import (
+    ACCELERATION,
     AREA,
     BENDING_STIFFNESS,
     DENSITY,
@@ -57,6 +58,15 @@ from catenaria.units import (
         ("400 N*m^2", BENDING_STIFFNESS, 400.0),
         ("400 N·m²", BENDING_STIFFNESS, 400.0),
         ("400 N m^2", BENDING_STIFFNESS, 400.0),
+        ("400 Nm^2", BENDING_STIFFNESS, 400.0),
+        ("400 Nm2", BENDING_STIFFNESS, 400.0),
+        ("400 Nm²", BENDING_STIFFNESS, 400.0),
+        ("0.4 kNm2", BENDING_STIFFNESS, 400.0),
+        ("4e8 Nmm2", BENDING_STIFFNESS, 400.0),
+        ("120 mm2", AREA, 0.00012),
+        ("1.2e-4 m2", AREA, 0.00012),
+        ("8900 kg/m3", DENSITY, 8900.0),
+        ("9.81 m/s2", ACCELERATION, 9.81),
         ("130 GPa", PRESSURE, 130e9),
         ("130 kN/mm^2", PRESSURE, 130e9),
         ("1.35 kg/m", MASS_PER_LENGTH, 1.35),
@@ -148,6 +158,52 @@ def test_a_bare_number_is_si(value: Any) -> None:
 def test_anything_else_is_refused_and_the_message_shows_what_is_allowed(value: object) -> None:
     with pytest.raises(ValueError, match=r'^a force, for example "15 kN"'):
         to_si(value, FORCE)
+
+
+@pytest.mark.parametrize(
+    ("text", "dimension"),
+    [
+        ("15 N2", FORCE),
+        ("400 Nm", BENDING_STIFFNESS),
+        ("400 (Nm)^2", BENDING_STIFFNESS),
+        ("120 m3", AREA),
+        ("120 mm5", AREA),
+    ],
+)
+def test_powers_without_a_sign_are_powers(text: str, dimension: Dimension) -> None:
+    """Negative control of the short ways of writing: they do not let wrong dimensions pass."""
+    with pytest.raises(ValueError, match=f"^{dimension.name}"):
+        to_si(text, dimension)
+
+
+@pytest.mark.parametrize("text", ["15,0", "15,0 kN", "-1,5e3 N", ",5 kN"])
+def test_a_decimal_comma_is_named(text: str) -> None:
+    with pytest.raises(ValueError, match="use a point, not a comma"):
+        to_si(text, FORCE)
+
+
+@pytest.mark.parametrize(
+    ("text", "dimension", "meant"),
+    [
+        ("15 KN", FORCE, "kN"),
+        ("130 GPA", PRESSURE, "GPa"),
+        ("65 M", LENGTH, "m"),
+        ("8900 Kg/m3", DENSITY, "kg/m3"),
+        ("0.2 MM/S", VELOCITY, "mm/s"),
+    ],
+)
+def test_capital_letters_are_put_right(text: str, dimension: Dimension, meant: str) -> None:
+    with pytest.raises(ValueError, match=rf"is not known \(did you mean {meant}\?\)$"):
+        to_si(text, dimension)
+
+
+@pytest.mark.parametrize("text", ["15 kNN", "15 KG", "15 furlong", "15 m", "15;0 kN"])
+def test_nothing_is_guessed_that_is_not_a_force(text: str) -> None:
+    """Negative control of both tests above."""
+    with pytest.raises(ValueError, match="a force") as caught:
+        to_si(text, FORCE)
+    assert "did you mean" not in str(caught.value)
+    assert "comma" not in str(caught.value)
 
 
 def test_an_unknown_unit_is_named() -> None:

@@ -18,6 +18,7 @@ from catenaria.errors import (
     NotConvergedError,
     UnsupportedError,
 )
+from catenaria.workflow import Progress
 
 
 def run(*arguments: str) -> Any:
@@ -122,7 +123,7 @@ def test_an_unforeseen_error_is_not_hidden(workflow: Any) -> None:
 
 def test_interrupting_says_where_and_that_nothing_was_written(workflow: Any) -> None:
     workflow.solve_failure = KeyboardInterrupt()
-    outcome = run("a.yaml")
+    outcome = run("a.yaml", "--method", "dynamic")
     assert outcome.exit_code == 130
     assert outcome.stderr == (
         "Interrupted in the stage 'contact wire' at 10.0 s of simulated time. Nothing was written.\n"
@@ -153,7 +154,34 @@ def test_a_folder_that_cannot_be_written(workflow: Any) -> None:
     workflow.write_failure = PermissionError(13, "Permission denied")
     outcome = run("a.yaml")
     assert outcome.exit_code == 2
-    assert outcome.stderr == "results/a cannot be written: [Errno 13] Permission denied\n"
+    assert outcome.stderr == "results/a cannot be written: Permission denied\n"
+
+
+def test_temporary_names_are_not_shown(workflow: Any) -> None:
+    workflow.write_failure = OSError(28, "No space left on device", "results/.a.0123abcd.new/result.json")
+    assert run("a.yaml").stderr == "results/a cannot be written: No space left on device\n"
+
+
+def test_a_place_that_cannot_be_written_is_refused_before_solving(workflow: Any) -> None:
+    Path("file").write_text("", encoding="utf-8")
+    outcome = run("a.yaml", "--out", "file/run")
+    assert (outcome.exit_code, workflow.solved) == (2, [])
+    assert "file/run cannot be written: " in outcome.stderr
+    assert run("a.yaml", "--out", "beside/run").exit_code == 0
+
+
+def test_interrupting_a_method_without_time_says_nothing_about_time(
+    workflow: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def interrupted(line: Path, method: str, start: Any, progress: Any) -> None:
+        progress(Progress("messenger wire", 2, 3, elapsed=0.1))
+        progress(Progress("messenger wire", 2, 3, elapsed=20.0))
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("catenaria.workflow.solve", interrupted)
+    outcome = run("a.yaml")
+    assert outcome.stderr == "Interrupted in the stage 'messenger wire'. Nothing was written.\n"
+    assert outcome.stdout == "Step 2 of 3: messenger wire\n"
 
 
 def test_a_folder_of_somebody_else_is_refused_before_solving(workflow: Any) -> None:
@@ -176,3 +204,13 @@ def test_a_wrong_command_line_is_bad_input(workflow: Any, arguments: list[str]) 
     outcome = run(*arguments)
     assert (outcome.exit_code, workflow.solved) == (2, [])
     assert "Usage: " in outcome.stderr
+
+
+def test_wires_are_not_told_to_be_cut(workflow: Any) -> None:
+    """Their length lies between the end supports: tails come on top."""
+    text = run("a.yaml").stdout
+    droppers, _, wires = text.partition("Wires: unstressed length between the end supports")
+    assert "cut to [m]" in droppers
+    assert "cut to" not in wires
+    assert "length [m]" in wires
+    assert "sag [mm]" in wires  # 80 columns are enough

@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 from pydantic import ValidationError
 
+from catenaria.errors import InconsistentInputError
 from catenaria.line import Conductor, Droppers, Line, MessengerSupport, Span, Support, TensionControl
 
 
@@ -65,6 +66,33 @@ def test_chainage_shifts_everything(tree: dict[str, Any]) -> None:
 def test_given_names_stay_and_others_are_numbered(tree: dict[str, Any]) -> None:
     tree["supports"][1]["name"] = "mast 17-4"
     assert [s.name for s in Line.model_validate(tree).supports] == ["S1", "mast 17-4", "S3", "S4"]
+
+
+def test_automatic_names_skip_those_that_are_taken(tree: dict[str, Any]) -> None:
+    tree["supports"][1]["name"] = "S1"
+    tree["supports"][3]["name"] = "S3"
+    names = [support.name for support in Line.model_validate(tree).supports]
+    assert names == ["S2", "S1", "S4", "S3"]
+
+
+def test_names_given_twice_are_still_refused(tree: dict[str, Any]) -> None:
+    """Negative control of the test above."""
+    tree["supports"][1]["name"] = tree["supports"][2]["name"] = "S7"
+    with pytest.raises(ValidationError, match="a name that no other support has"):
+        Line.model_validate(tree)
+
+
+@pytest.mark.parametrize(
+    ("part", "derived"),
+    [
+        (Droppers.model_construct(positions=None, first=4.0, spacing=None, count=3), "x"),
+        (Conductor.model_construct(area=1e-4, density=None, mass_per_length=None), "rhoA"),
+        (Support.model_construct(messenger_wire=MessengerSupport(encumbrance=1.5)), "messenger_height"),
+    ],
+)
+def test_what_cannot_be_derived_is_not_made_up(part: object, derived: str) -> None:
+    with pytest.raises(InconsistentInputError):
+        getattr(part, derived)
 
 
 def test_a_part_of_a_control_keeps_the_other_defaults(tree: dict[str, Any]) -> None:

@@ -38,5 +38,14 @@ def test_the_table_follows_the_line(tree: dict[str, Any]) -> None:
     assert ("Line", "name") not in table
 
 
+def test_wanted_and_found_are_counted_on_their_own(tree: dict[str, Any]) -> None:
+    """Negative control: a line that did not pass the checks shows that its two sides differ."""
+    line = Line.model_validate(tree)
+    span = line.spans[1].model_copy(update={"contact_wire_height": (0.0,) * 9})
+    table = flat(line.model_copy(update={"spans": (line.spans[0], span, line.spans[2])}))
+    assert table["Prescribed", "wanted"] == "2 tensions + 23 heights"
+    assert table["Prescribed", "found"] == "2 wire lengths + 21 dropper lengths"
+
+
 def test_all_cells_are_filled(example_path: Path) -> None:
     assert all(label and value for _, rows in summarise(load_line(example_path)) for label, value in rows)

@@ -71,6 +71,8 @@ def test_refused_by_name(
         (("track",), {}),
         (("other_wires",), []),
         (("start_chainage",), 1000),
+        (("supports", 3, "contact_wire", "height"), 5e-10),
+        (("supports", 2, "messenger_wire", "height"), 1.5 - 5e-10),
     ],
 )
 def test_what_is_solved_is_not_refused(
@@ -89,8 +91,17 @@ def test_all_of_them_with_file_line_and_column(write: Write, example_text: str) 
     line = load_line(path)
     with pytest.raises(UnsupportedError) as caught:
         refuse_unsupported(line)
-    first, second, *_ = str(caught.value).splitlines()
+    first, second = str(caught.value).splitlines()  # the pre-sag that aliases repeat stands at one place
     row = text[: text.index("20 cm")].count("\n") + 1
     column = len(text[: text.index("20 cm")].splitlines()[-1]) + 1
     assert first.startswith(f"{path}:{row}:{column}: supports[1].stagger: ")
     assert ": spans[0].pre_sag: " in second
+
+
+def test_the_same_at_two_places_is_two_complaints(tree: dict[str, Any]) -> None:
+    """Negative control of merging what aliases repeat: lines without a file have no marks to merge by."""
+    for span in tree["spans"]:
+        span["pre_sag"] = "55 mm"
+    with pytest.raises(UnsupportedError) as caught:
+        refuse_unsupported(Line.model_validate(tree))
+    assert len(str(caught.value).splitlines()) == 3

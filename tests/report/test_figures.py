@@ -15,7 +15,7 @@ import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from catenaria.report import history_figures, line_figures
+from catenaria.report import history_figures, line_figures, style
 from catenaria.report.figures import write_figures
 from catenaria.results import FormResult
 
@@ -39,15 +39,36 @@ def lines_of(figure: Figure, panel: int = 0) -> dict[str, Any]:
 
 
 def cut_off(figure: Figure) -> list[str]:
-    """Name the panels and titles that reach over the figure's edge, and legends outside their panel."""
+    """Name panels, titles and legends that reach over the figure's edge, and legends that cross a panel's."""
     FigureCanvasAgg(figure).draw()
     found = [text.get_text() for text in figure.texts if not _within(text.get_window_extent(), figure.bbox)]
     for axes in figure.axes:
         if not _within(axes.get_tightbbox(), figure.bbox):
             found.append(f"labels of {axes.get_ylabel()}")
         legend = axes.get_legend()
-        if legend is not None and not _within(legend.get_window_extent(), axes.bbox):
-            found.append(f"legend of {axes.get_ylabel()}")
+        if legend is not None:
+            box = legend.get_window_extent()
+            above = box.y0 >= axes.bbox.y1 and _within(box, figure.bbox)
+            if not (above or _within(box, axes.bbox)):
+                found.append(f"legend of {axes.get_ylabel()}")
+    return found
+
+
+def covered(figure: Figure) -> list[str]:
+    """Name what the legends lie over: titles, names of supports, and lines that mark supports."""
+    FigureCanvasAgg(figure).draw()
+    found: list[str] = []
+    for axes in figure.axes:
+        legend = axes.get_legend()
+        if legend is None:
+            continue
+        box = legend.get_window_extent()
+        texts = [*figure.texts, *axes.texts, axes._left_title]  # pyright: ignore[reportAttributeAccessIssue]
+        found += [
+            text.get_text() for text in texts if text.get_text() and box.overlaps(text.get_window_extent())
+        ]
+        upright = [line for line in axes.get_lines() if len({*np.asarray(line.get_xdata()).tolist()}) == 1]
+        found += [f"line {line.get_label()}" for line in upright if box.overlaps(line.get_window_extent())]
     return found
 
 
@@ -59,6 +80,19 @@ def _within(box: Any, edge: Any) -> bool:
 @pytest.mark.parametrize("name", list(DRAWINGS))
 def test_no_text_is_cut_off(make_result: Callable[[int], FormResult], name: str, spans: int) -> None:
     assert cut_off(DRAWINGS[name](make_result(spans))) == []
+
+
+@pytest.mark.parametrize("spans", [1, 3, 40])
+@pytest.mark.parametrize("name", list(DRAWINGS))
+def test_no_legend_covers_anything(make_result: Callable[[int], FormResult], name: str, spans: int) -> None:
+    assert covered(DRAWINGS[name](make_result(spans))) == []
+
+
+def test_a_covered_support_line_would_be_noticed(result: FormResult) -> None:
+    """Negative control of the test above: a legend within a panel lies over the last support."""
+    figure = line_figures.configuration_figure(result)
+    style.legend(figure.axes[0], 3)
+    assert covered(figure) != []
 
 
 def test_text_that_is_cut_off_would_be_noticed(result: FormResult) -> None:
@@ -131,12 +165,63 @@ def test_dropper_lengths_are_written_if_they_fit(make_result: Callable[[int], Fo
     assert "droppers.csv" in crowded.texts[1].get_text()
 
 
-def test_tension_figure_shows_true_and_strain_tension_and_the_mean(result: FormResult) -> None:
+def test_tension_figure_shows_true_and_strain_tension_and_what_is_wanted(result: FormResult) -> None:
     wire = result.wires[1]
     drawn = lines_of(line_figures.tension_figure(result, wire))
     np.testing.assert_array_equal(drawn["tension"].get_ydata(), 1e-3 * wire.profile.tension)
     np.testing.assert_array_equal(drawn["N = EA ε, eq. (11)"].get_ydata(), 1e-3 * wire.profile.strain_tension)
-    assert f"mean {1e-3 * wire.tension_mean:.3f} kN" in drawn
+    assert drawn["wanted: 15.000 kN"].get_ydata()[0] == 15.0
+    figure = line_figures.tension_figure(result, wire)
+    assert f"{wire.tension_mean:.1f} N in the mean" in figure.texts[1].get_text()
+    (band,) = (patch for patch in figure.axes[0].patches if patch.get_label() == "dead band: ±20 N")
+    assert (band.get_extents().y0, band.get_extents().y1) == pytest.approx(
+        figure.axes[0].transData.transform([(0.0, 14.98), (0.0, 15.02)])[:, 1]
+    )
+
+
+def test_the_stated_offset_of_the_strain_tension_is_that_of_the_curves(result: FormResult) -> None:
+    """T^2/EA, from the closed form behind the synthetic result."""
+    for wire, stiffness in zip(result.wires, (15.6e6, 12.5e6), strict=True):
+        text = line_figures.tension_figure(result, wire).texts[1].get_text()
+        stated = float(text.partition("here by ")[2].partition(" N")[0])
+        assert stated == pytest.approx(15_000.0**2 / stiffness, abs=0.2)
+
+
+def test_a_method_without_dead_bands_has_none_in_its_figures(result: FormResult) -> None:
+    """Negative control of the band above."""
+    figure = line_figures.tension_figure(replace(result, histories=()), result.wires[1])
+    assert list(figure.axes[0].patches) == []
+
+
+def test_supports_of_the_other_wire_are_marked_lightly(result: FormResult) -> None:
+    axes = line_figures.contact_wire_figure(result).axes[0]
+    places = [(np.asarray(line.get_xdata(), dtype=float), line.get_color()) for line in axes.get_lines()]
+    marks = {x[0]: colour for x, colour in places if len(x) == 2}
+    assert marks == {0.0: style.GREY, 65.0: style.FAINT, 130.0: style.FAINT, 195.0: style.GREY}
+    assert {text.get_text() for text in axes.texts} == {"S1", "S2", "S3", "S4"}
+
+
+def test_the_tension_control_is_told_by_its_place_not_by_its_name(result: FormResult) -> None:
+    renamed = replace(result.histories[0], control_name=("pull", *result.histories[0].control_name[1:]))
+    figure = history_figures.velocity_figure(replace(result, histories=(renamed, result.histories[1])))
+    ends = lines_of(figure, 0)["each wire end"].get_ydata()
+    np.testing.assert_array_equal(ends, 1e3 * renamed.velocity[:, 0])
+
+
+def test_velocities_say_which_direction_is_positive(result: FormResult) -> None:
+    figure = history_figures.velocity_figure(result)
+    directions = [axes.get_ylabel().split()[1] for axes in figure.axes]
+    assert directions == ["outwards", "outwards", "up", "down"]
+    assert {axes.get_yscale() for axes in figure.axes} == {"symlog"}
+
+
+def test_line_styles_of_tensions_differ(make_result: Callable[[int], FormResult]) -> None:
+    figure = history_figures.support_tension_figure(make_result(5))
+    lines = [line for name, line in lines_of(figure, 1).items() if name.startswith("N at")]
+    assert len(lines) == 6
+    dashes = [str(line._unscaled_dash_pattern) for line in lines]
+    assert len(set(dashes)) == 6
+    assert figure.axes[0].get_xscale() == "log"
 
 
 def test_errors_are_drawn_with_their_dead_bands(result: FormResult) -> None:
@@ -148,6 +233,8 @@ def test_errors_are_drawn_with_their_dead_bands(result: FormResult) -> None:
         assert drawn[band].get_ydata()[0] == pytest.approx(float(band.split()[2]))
         assert figure.axes[panel].get_yscale() == "log"
     height = 1e3 * np.abs(result.histories[0].error[:, 1:]).max(axis=1)
+    height[height < 0.001] = np.nan  # a tenth of the dead band, as the caption says
+    assert "less than 0.1 dead bands are not drawn" in figure.texts[1].get_text()
     np.testing.assert_allclose(lines_of(figure, 2)["largest"].get_ydata(), height)
 
 

@@ -170,3 +170,18 @@ def test_a_file_and_the_working_folder_are_refused(tmp_path: Path, monkeypatch: 
 def test_files_that_the_user_removed_do_not_matter(run: Path) -> None:
     (run / "figures" / "tensions.png").unlink()
     assert require_replaceable(run) == run.resolve()
+
+
+def test_a_place_below_a_file_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("", encoding="utf-8")
+    with pytest.raises(InconsistentInputError, match="is not a folder to write into"):
+        require_replaceable(tmp_path / "file" / "deep" / "run")
+    assert require_replaceable(tmp_path / "new" / "deep" / "run") == tmp_path / "new" / "deep" / "run"
+
+
+def test_a_place_without_permission_is_refused(run: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    require_replaceable(run)
+    monkeypatch.setattr("os.access", lambda place, mode: place != run.parent)
+    for folder in (run, run.parent / "another"):
+        with pytest.raises(InconsistentInputError, match="cannot be written"):
+            require_replaceable(folder)

@@ -77,8 +77,8 @@ class PlainDisplay:
         if previous is None or previous.stage != progress.stage:
             self._console.print(headline(progress), soft_wrap=True)
             self._printed_at = progress.elapsed
-        elif progress.elapsed >= self._printed_at + _PLAIN_INTERVAL:
-            self._console.print("  " + "; ".join(details_of(progress)), soft_wrap=True)
+        elif progress.elapsed >= self._printed_at + _PLAIN_INTERVAL and (details := details_of(progress)):
+            self._console.print("  " + "; ".join(details), soft_wrap=True)
             self._printed_at = progress.elapsed
 
     def shown(self) -> AbstractContextManager[object]:

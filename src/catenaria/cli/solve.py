@@ -72,13 +72,14 @@ def _find_form(line: Path, method: str, start: Path | None, folder: Path, consol
             earlier = None if start is None else results.load_result(start)
             return workflow.solve(line, method=method, start=earlier, progress=display.update)
     except KeyboardInterrupt:
-        _end_interrupted(_whereabouts(display.latest))
+        _end_interrupted(_whereabouts(display.latest, method))
 
 
-def _whereabouts(latest: Progress | None) -> str:
+def _whereabouts(latest: Progress | None, method: str) -> str:
     if latest is None:
         return "before the first step. Nothing was written"
-    return f"in the stage '{latest.stage}' at {latest.time:.1f} s of simulated time. Nothing was written"
+    simulated = f" at {latest.time:.1f} s of simulated time" if method == "dynamic" else ""
+    return f"in the stage '{latest.stage}'{simulated}. Nothing was written"
 
 
 def _require_audited(result: FormResult) -> None:
@@ -99,7 +100,7 @@ def _write(result: FormResult, folder: Path, console: Console, *, figures: bool)
     except KeyboardInterrupt:
         _end_interrupted(f"while writing. {folder} holds all of the new results or what it held before")
     except OSError as error:
-        complain(f"{folder} cannot be written: {error}")
+        complain(f"{folder} cannot be written: {error.strerror}")  # its path is that of a temporary folder
         raise typer.Exit(BAD_INPUT) from error
 
 

@@ -45,11 +45,11 @@ def _dropper_table(result: FormResult) -> Table:
 
 def _wire_table(result: FormResult) -> Table:
     table = _table(
-        "Wires between their end supports",
+        "Wires: unstressed length between the end supports",
         "",
         "tension [N]",
         "wanted [N]",
-        "unstressed [m]",
+        "length [m]",
         "travel [mm]",
         "sag [mm]",
     )

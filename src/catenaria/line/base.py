@@ -68,6 +68,13 @@ def closest(word: str, words: Iterable[str]) -> str:
     return f" (did you mean {matches[0]}?)" if matches else ""
 
 
+def _meant(field: str, fields: Iterable[str]) -> str:
+    """Say what an unknown field was probably meant to be: ``{force: 15,5 kN}`` has one named ``5 kN``."""
+    if field[:1].isdigit():
+        return " (a comma ends the field before it: use a point for decimals)"
+    return closest(field, fields)
+
+
 def exactly_one(first: str, second: str) -> dict[str, Any]:
     """JSON Schema saying that one of two fields must be given."""
     given = [
@@ -93,7 +100,7 @@ class LineModel(BaseModel):
         given = cast("Mapping[object, object]", data)
         problems = [
             Problem(
-                (str(key),), key, f"the fields {names}{closest(str(key), cls.model_fields)}", "unknown field"
+                (str(key),), key, f"the fields {names}{_meant(str(key), cls.model_fields)}", "unknown field"
             )
             for key in given
             if key not in cls.model_fields

@@ -26,12 +26,12 @@ _STRAIN: Final = (1e-5, 0.02)  # T/EA; about 1e-3 in wires that are built
 
 @dataclass(frozen=True)
 class _Range:
-    """Where a quantity of real conductors lies, in SI, and the unit that is forgotten most easily."""
+    """Where a quantity of real lines lies, in SI, and usual units: the most easily forgotten one first."""
 
     low: float
     high: float
     unit: str
-    usual: tuple[tuple[str, float], ...] = ()
+    usual: tuple[tuple[str, float], ...]
 
     def holds(self, value: float) -> bool:
         """Tell whether a value is plausible; one that is unknown (NaN) is."""
@@ -39,7 +39,8 @@ class _Range:
 
     def allowed(self, value: float) -> str:
         """Say what is plausible, and which unit was probably meant."""
-        text = f"a plausible value, {self.low:g} to {self.high:g} {self.unit}"
+        unit, size = self.usual[0]
+        text = f"a plausible value, {self.low / size:g} to {self.high / size:g} {unit}"
         meant = [f"{value:g} {unit}" for unit, size in self.usual if self.holds(value * size)]
         return f"{text}; this is {value:g} {self.unit}" + (f", did you mean {meant[0]}?" if meant else "")
 
@@ -73,13 +74,13 @@ def implausible_tensions(line: Line) -> Iterator[Problem]:
 
 def implausible_heights(line: Line) -> Iterator[Problem]:
     """Find wanted heights far from where the contact wire is held, or near the messenger's supports."""
-    low = dict(_low_supports(line))
+    supports = list(enumerate(zip(line.support_x, line.supports, strict=False)))
+    held = [(x, support.contact_wire.height) for _, (x, support) in supports if support.contact_wire]
+    low = dict(_low_supports(line, [_between(held, x) for x in line.support_x]))
     for i, least in low.items():
         allowed = f"{least:g} m or more, {_ROOM:g} m above the wanted height of the contact wire beside it"
         path: Path = ("supports", i, "messenger_wire", "height")
         yield Problem(path, line.supports[i].messenger_height, allowed)
-    supports = list(enumerate(zip(line.support_x, line.supports, strict=False)))
-    held = [(x, support.contact_wire.height) for _, (x, support) in supports if support.contact_wire]
     hung = [(x, math.nan if i in low else support.messenger_height) for i, (x, support) in supports]
     for i, (start, span) in enumerate(zip(line.support_x, line.spans, strict=False)):
         listed = isinstance(span.contact_wire_height, tuple)
@@ -101,12 +102,16 @@ def _allowed_height(height: float, level: float, ceiling: float) -> str:
     return ""
 
 
-def _low_supports(line: Line) -> Iterator[tuple[int, float]]:
-    """Find messenger supports that are too low where the contact wire passes freely, and the least height."""
-    for i, support in enumerate(line.supports):
+def _low_supports(line: Line, levels: Sequence[float]) -> Iterator[tuple[int, float]]:
+    """Find messenger supports that are too low where the contact wire passes freely, and the least height.
+
+    A wanted height that is itself far from the level of the contact wire says nothing about a support.
+    """
+    for i, (support, level) in enumerate(zip(line.supports, levels, strict=False)):
         left = line.spans[i - 1].heights[-1:] if 0 < i <= len(line.spans) else ()
         right = line.spans[i].heights[:1] if i < len(line.spans) else ()
-        least = max(left + right, default=-math.inf) + _ROOM
+        near = [height for height in left + right if not abs(height - level) > _FARTHEST + _ROUNDING]
+        least = max(near, default=-math.inf) + _ROOM
         if support.contact_wire is None and support.messenger_height < least - _ROUNDING:
             yield i, least
 

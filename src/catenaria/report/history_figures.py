@@ -15,41 +15,51 @@ from catenaria.results import FormResult, History
 
 _TIME = "simulated time [s]"
 _MOST_JOINTS = 6
-_DASHES = ("-", "--", ":", "-.")
+_DASHES = ((6.0, 2.0), (3.0, 2.0), (1.0, 1.2), (6.0, 2.0, 1.0, 2.0), (9.0, 3.0), (3.0, 1.5, 1.0, 1.5))
 _ERROR_FLOOR = 0.1  # of a dead band: smaller errors say nothing
-_ENERGY_FLOOR = 1e-12  # of the largest energy: rounding
+_ENERGY_FLOOR = 1e-12  # of the largest energy: as good as at rest
 
 
 def support_tension_figure(result: FormResult) -> Figure:
     """Draw the tensions of both wires at their joints while they are controlled, as in Fig. 21."""
     text = (
-        "N = EA ε of eq. (11) is read at a support; a tensioning device pulls each wire end (mean of both)."
+        "A tensioning device pulls each wire end (mean of both). N = EA ε of eq. (11) is read at a support; "
+        "it leaves out |r'|\nand so lies lower by the fraction T/EA of the tension T; it overshoots where "
+        "the wire bends sharply."
     )
     figure, [panels] = _by_step(result, "Tensions at the supports during the controls", text, [3.8])
     targets = {wire.name: 1e-3 * wire.target_tension for wire in result.wires}
     for axes, history, title in zip(panels, result.histories, _titles(result), strict=True):
         device = 1e-3 * history.reaction.mean(axis=1)
-        style.line(axes, history.time, device, style.PALE, "tensioning device", width=5.0)
+        style.line(axes, history.time, device, style.DARK, "tensioning device", width=1.0)
         _joint_lines(axes, history)
         style.level(axes, targets[history.step], f"wanted: {targets[history.step]:.3f} kN")
+        style.logarithmic_time(axes, history.time)
         style.describe(axes, title, _TIME, "tension [kN]")
-        style.legend(axes, 2)
+        style.legend(axes, 2, length=2.8)
     return figure
 
 
 def velocity_figure(result: FormResult) -> Figure:
     """Draw the velocities of all controls, as in Fig. 10."""
-    text = "A control rests within its dead band. Times and dropper velocities are on logarithmic scales."
+    text = (
+        "A control rests within its dead band. Scales are logarithmic; those of velocities are linear about "
+        "zero.\nPositive is outwards for wire ends, upwards for the tops of droppers that step 1 moves, and "
+        "downwards for their bottoms in step 2."
+    )
     figure, rows = _by_step(result, "Velocities of the controls", text, [2.3, 2.3])
     for i, (history, title) in enumerate(zip(result.histories, _titles(result), strict=True)):
         pulls = _pulls(history)
         velocity = 1e3 * history.velocity
-        style.line(rows[0][i], history.time, velocity[:, pulls].mean(axis=1), style.BLUE, "outwards")
+        style.lines(rows[0][i], history.time, velocity[:, pulls], style.BLUE, "wire end", width=1.6)
         style.lines(rows[1][i], history.time, velocity[:, ~pulls], style.GREEN, "dropper")
-        style.logarithmic_both_ways(rows[1][i], velocity[:, ~pulls])
-        for axes, moved in ((rows[0][i], "wire ends"), (rows[1][i], "dropper ends")):
+        for axes, chosen, moved, positive in (
+            (rows[0][i], pulls, "wire ends", "outwards"),
+            (rows[1][i], ~pulls, "dropper ends", "up" if _moves_tops(history) else "down"),
+        ):
+            style.logarithmic_both_ways(axes, velocity[:, chosen])
             style.logarithmic_time(axes, history.time)
-            style.describe(axes, f"{title}, {moved}", _TIME, "velocity [mm/s]")
+            style.describe(axes, f"{title}, {moved}", _TIME, f"velocity {positive} [mm/s]")
             style.legend(axes, 1)
     return figure
 
@@ -57,15 +67,16 @@ def velocity_figure(result: FormResult) -> Figure:
 def error_figure(result: FormResult) -> Figure:
     """Draw the sizes of all control errors with their dead bands."""
     text = (
-        "Size of the errors. The control law approaches a dead band from outside and never quite enters it."
+        "Size of the errors. The control law approaches a dead band from outside and never quite enters it.\n"
+        f"Errors of less than {_ERROR_FLOOR:g} dead bands are not drawn."
     )
     figure, rows = _by_step(result, "Errors of the controls", text, [2.3, 2.3])
     bands = dict(zip(result.controls.name, result.controls.dead_band, strict=True))
     for i, (history, title) in enumerate(zip(result.histories, _titles(result), strict=True)):
         pulls = _pulls(history)
         band = np.array([bands[name] for name in history.control_name])
-        in_metres = history.control_unit[-1] == "m"
-        height_or_force = (1e3, "height error", "mm") if in_metres else (1.0, "force error", "N")
+        tops = _moves_tops(history)
+        height_or_force = (1e3, "height error", "mm") if tops else (1.0, "force error", "N")
         for axes, chosen, (scale, quantity, unit) in (
             (rows[0][i], pulls, (1.0, "tension error", "N")),
             (rows[1][i], ~pulls, height_or_force),
@@ -80,7 +91,10 @@ def error_figure(result: FormResult) -> Figure:
 
 def energy_figure(result: FormResult) -> Figure:
     """Draw the energies (7) and (8)."""
-    text = "Kinetic energy, eq. (7), and the axial and bending parts of the strain energy, eq. (8)."
+    text = (
+        "Kinetic energy, eq. (7), and the axial and bending parts of the strain energy, eq. (8).\n"
+        f"Values below {_ENERGY_FLOOR:g} of the largest energy are not drawn."
+    )
     figure, [panels] = _by_step(result, "Energies", text, [3.4])
     for axes, history, title in zip(panels, result.histories, _titles(result), strict=True):
         energies = {"axial": history.axial, "bending": history.bending, "kinetic": history.kinetic}
@@ -105,8 +119,13 @@ def _titles(result: FormResult) -> list[str]:
 
 
 def _pulls(history: History) -> NDArray[np.bool_]:
-    """Tell the controls of wire ends from those of droppers."""
-    return np.array([name.endswith("tension") for name in history.control_name])
+    """Tell the control of the wire ends, which is the first one of every step, from those of droppers."""
+    return np.arange(len(history.control_name)) == 0
+
+
+def _moves_tops(history: History) -> bool:
+    """Tell whether droppers are moved at their tops, to control heights, or at their bottoms, for forces."""
+    return history.control_unit[-1] == "m"
 
 
 def _joint_lines(axes: Axes, history: History) -> None:
@@ -115,14 +134,15 @@ def _joint_lines(axes: Axes, history: History) -> None:
         style.lines(axes, history.time, tension, style.SKY, "support")
         return
     for i, name in enumerate(history.joint_name):
-        dashes = _DASHES[i % len(_DASHES)]  # symmetric lines coincide
+        dashes = (0, _DASHES[i])  # symmetric lines coincide
         style.line(axes, history.time, tension[:, i], style.CYCLE[i], f"N at {name}", style=dashes)
 
 
 def _error_lines(axes: Axes, history: History, error: NDArray[np.float64], band: float, unit: str) -> None:
-    size = np.maximum(error, _ERROR_FLOOR * band)
+    size = np.where(error >= _ERROR_FLOOR * band, error, np.nan)
+    largest = np.where(error.max(axis=1) >= _ERROR_FLOOR * band, error.max(axis=1), np.nan)
     style.logarithmic(axes)
     if size.shape[1] > 1:
         style.lines(axes, history.time, size, style.SKY, "dropper")
-    style.line(axes, history.time, size.max(axis=1), style.BLUE, "largest" if size.shape[1] > 1 else "")
+    style.line(axes, history.time, largest, style.BLUE, "largest" if size.shape[1] > 1 else "")
     style.level(axes, band, f"dead band {band:g} {unit}")

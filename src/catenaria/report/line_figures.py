@@ -18,14 +18,15 @@ def contact_wire_figure(result: FormResult) -> Figure:
     datum = float(droppers.target_height[0])
     text = (
         f"Height is counted from {datum:.3f} m, the wanted height at the first dropper. "
-        f"Largest sag between two droppers: {1e3 * wire.sag:.2f} mm."
+        f"Largest sag between two neighbours: {1e3 * wire.sag:.2f} mm.\n"
+        "Supports that hold the messenger wire only are marked lightly."
     )
     figure, [[axes]] = style.new_figure(f"Shape of the {wire.name} in equilibrium", text, [3.4])
     style.line(axes, wire.profile.x, 1e3 * (wire.profile.z - datum), style.RED, wire.name)
     style.points(axes, droppers.x, 1e3 * (droppers.height - datum), style.DARK, "dropper")
     style.describe(axes, "", _ALONG, "height [mm]")
-    style.mark_supports(axes, _supports(result, wire))
-    style.legend(axes, 2)
+    style.mark_supports(axes, _supports(result, result.wires[-1]), _supports(result, wire))
+    style.legend_above(axes)
     style.state_exaggeration(axes, y_unit=1e-3)
     return figure
 
@@ -52,7 +53,7 @@ def configuration_figure(result: FormResult) -> Figure:
     for axes, title in ((start, "(a) starting configuration"), (final, "(b) equilibrium")):
         style.describe(axes, title, _ALONG, "height [m]")
         style.mark_supports(axes, _supports(result, result.wires[-1]))
-        style.legend(axes, 3)
+        style.legend_above(axes)
         style.state_exaggeration(axes, y_unit=1.0)
     return figure
 
@@ -60,18 +61,25 @@ def configuration_figure(result: FormResult) -> Figure:
 def tension_figure(result: FormResult, wire: WireForm) -> Figure:
     """Draw the tension along a wire, as in Figs. 24 and 25."""
     profile, colour = wire.profile, style.WIRE_COLOURS.get(wire.name, style.DARK)
+    below = float(np.median(profile.tension - profile.strain_tension))
     text = (
-        f"Tension is the axial force: {wire.tension_min:.1f} N to {wire.tension_max:.1f} N between the end "
-        "supports. N is the strain tension at each single point."
+        f"Axial force between the end supports: {wire.tension_min:.1f} N to {wire.tension_max:.1f} N, "
+        f"{wire.tension_mean:.1f} N in the mean; measured: {wire.tension:.1f} N.\n"
+        "N leaves out |r'| and so lies lower by the "
+        f"fraction T/EA of the tension T, here by {below:.1f} N; it overshoots where the wire bends sharply."
     )
     figure, [[axes]] = style.new_figure(f"Tension along the {wire.name} in equilibrium", text, [3.6])
     style.line(axes, profile.x, 1e-3 * profile.strain_tension, style.GREY, "N = EA ε, eq. (11)", width=0.8)
     style.line(axes, profile.x, 1e-3 * profile.tension, colour, "tension")
-    style.level(axes, 1e-3 * wire.tension_mean, f"mean {1e-3 * wire.tension_mean:.3f} kN")
+    wanted = 1e-3 * wire.target_tension
+    style.level(axes, wanted, f"wanted: {wanted:.3f} kN")
+    if result.histories:  # other methods have no dead bands
+        half = _dead_band(result, wire)
+        style.band(axes, wanted, 1e-3 * half, f"dead band: ±{half:g} N")
     style.describe(axes, "", _ALONG, "tension [kN]")
     style.mark_supports(axes, _supports(result, wire))
     style.mark_droppers(axes, result.droppers.x)
-    style.legend(axes, 4)
+    style.legend_above(axes)
     return figure
 
 
@@ -86,8 +94,14 @@ def moment_figure(result: FormResult) -> Figure:
         axes.set_ylim(bottom=0.0)
         style.mark_supports(axes, _supports(result, wire))
         style.mark_droppers(axes, result.droppers.x)
-        style.legend(axes, 1)
+        style.legend_above(axes)
     return figure
+
+
+def _dead_band(result: FormResult, wire: WireForm) -> float:
+    """Half width of the dead band of a wire's tension control [N]."""
+    bands = dict(zip(result.controls.name, result.controls.dead_band.tolist(), strict=True))
+    return bands[f"{wire.name} tension"]
 
 
 def _supports(result: FormResult, wire: WireForm) -> dict[str, float]:

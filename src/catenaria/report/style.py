@@ -9,7 +9,7 @@ matplotlib that take style arguments are in this file, because matplotlib does n
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -22,15 +22,17 @@ FloatArray = NDArray[np.float64]
 
 BLUE, ORANGE, GREEN, RED, PURPLE, SKY = "#0072B2", "#E69F00", "#009E73", "#D55E00", "#CC79A7", "#56B4E9"
 CYCLE = (BLUE, RED, GREEN, ORANGE, PURPLE, SKY)
-DARK, GREY, PALE = "#222222", "#666666", "#DDDDDD"
+DARK, GREY, FAINT, PALE = "#222222", "#666666", "#AAAAAA", "#DDDDDD"
 WIRE_COLOURS = {"contact wire": RED, "messenger wire": BLUE}
 
 DOTS_PER_INCH = 150
 _INK = 10.0  # font size [pt]
 _WIDTH = 10.0  # of a figure [inch]; so are the margins
 _LEFT, _RIGHT, _TOP, _BOTTOM, _BETWEEN = 1.0, 0.25, 1.2, 0.62, 1.05
+_SUBTITLE_LINE = 0.19
 _LABEL_BELOW, _LABEL_LEFT = 0.28, 0.68
 _SHORTEST = 1e-4  # of the longest time, on a logarithmic time axis
+_ABOVE_NAMES = 17.0  # from a panel up to its title, over the names of supports [pt]
 _MOST_LINES = 60
 _MOST_NAMES = 16
 
@@ -43,7 +45,7 @@ def new_figure(
     Parameters
     ----------
     title, subtitle : str
-        What the figure shows, and what one must know to read it.
+        What the figure shows, and what one must know to read it; the subtitle may have several lines.
     heights : sequence of float
         Height of each row of panels [inch].
     columns : int
@@ -56,24 +58,25 @@ def new_figure(
     list of list of Axes
         Panels by row and column.
     """
-    height = _TOP + sum(heights) + _BETWEEN * (len(heights) - 1) + _BOTTOM
+    above = _TOP + _SUBTITLE_LINE * subtitle.count("\n")
+    height = above + sum(heights) + _BETWEEN * (len(heights) - 1) + _BOTTOM
     pitch = (_WIDTH - _RIGHT) / columns
     figure = Figure(figsize=(_WIDTH, height), facecolor="white")
     panels: list[list[Axes]] = []
-    top = height - _TOP
+    top = height - above
     for row in heights:
         size = ((pitch - _LEFT) / _WIDTH, row / height)
         lefts = [(_LEFT + i * pitch) / _WIDTH for i in range(columns)]
         panels.append([figure.add_axes((left, (top - row) / height, *size)) for left in lefts])
         top -= row + _BETWEEN
     figure.text(0.02, 1 - 0.35 / height, title, fontsize=_INK + 4, fontweight="bold", color=DARK)
-    figure.text(0.02, 1 - 0.62 / height, subtitle, fontsize=_INK, color=GREY)
+    figure.text(0.02, 1 - 0.5 / height, subtitle, fontsize=_INK, color=GREY, va="top", linespacing=1.3)
     return figure, panels
 
 
 def describe(axes: Axes, title: str, x: str, y: str) -> None:
     """Write the title of a panel and the quantity and unit of its axes, and draw a quiet grid."""
-    axes.set_title(title, loc="left", fontsize=_INK + 1, color=DARK, y=1.0, pad=17)
+    axes.set_title(title, loc="left", fontsize=_INK + 1, color=DARK, y=1.0, pad=_ABOVE_NAMES)
     axes.set_xlabel(x, fontsize=_INK, color=DARK)
     axes.set_ylabel(y, fontsize=_INK, color=DARK)
     axes.tick_params(labelsize=_INK - 1, color=GREY, labelcolor=DARK)
@@ -119,19 +122,19 @@ def line(
     label: str = "",
     *,
     width: float = 1.6,
-    style: str = "-",
+    style: str | tuple[int, tuple[float, ...]] = "-",
 ) -> None:
     """Draw one line; without a label it is not in the legend."""
     axes.plot(x, y, color=colour, label=label or "_", linewidth=width, linestyle=style)
 
 
-def lines(axes: Axes, x: FloatArray, y: FloatArray, colour: str, noun: str) -> None:
+def lines(axes: Axes, x: FloatArray, y: FloatArray, colour: str, noun: str, *, width: float = 0.6) -> None:
     """Draw the columns of `y` as thin lines, one for each `noun`; if there are very many, only some."""
     count = y.shape[1]
     stride = -(-count // _MOST_LINES)
     text = f"each {noun}" if stride == 1 else f"1 in {stride} {noun}s"
     for i in range(0, count, stride):
-        line(axes, x, y[:, i], colour, "" if i else text, width=0.6)
+        line(axes, x, y[:, i], colour, "" if i else text, width=width)
 
 
 def points(axes: Axes, x: FloatArray, y: FloatArray, colour: str, label: str) -> None:
@@ -154,10 +157,20 @@ def level(axes: Axes, y: float, label: str) -> None:
     axes.axhline(y, color=DARK, linewidth=1.1, linestyle=(0, (4, 3)), label=label, zorder=1.5)
 
 
-def mark_supports(axes: Axes, supports: Mapping[str, float]) -> None:
-    """Mark supports by a dashed line, with their name above it unless there are many."""
+def band(axes: Axes, middle: float, half: float, label: str) -> None:
+    """Shade a horizontal band across a panel."""
+    axes.axhspan(middle - half, middle + half, color=PALE, linewidth=0.0, label=label, zorder=0.5)
+
+
+def mark_supports(axes: Axes, supports: Mapping[str, float], held: Collection[str] | None = None) -> None:
+    """Mark supports by a dashed line, with their name above it unless there are many.
+
+    Supports that do not hold the wire of the panel, those not in `held`, are marked lightly.
+    """
     for name, x in supports.items():
-        axes.axvline(x, color=GREY, linewidth=0.8, linestyle=(0, (5, 4)), zorder=1)
+        holds = held is None or name in held
+        colour, dashes = (GREY, (5, 4)) if holds else (FAINT, (1, 3))
+        axes.axvline(x, color=colour, linewidth=0.8, linestyle=(0, dashes), zorder=1)
         if len(supports) <= _MOST_NAMES:
             axes.annotate(
                 name,
@@ -167,7 +180,7 @@ def mark_supports(axes: Axes, supports: Mapping[str, float]) -> None:
                 textcoords="offset points",
                 ha="center",
                 fontsize=_INK - 1,
-                color=GREY,
+                color=colour,
             )
 
 
@@ -187,8 +200,11 @@ def mark_droppers(axes: Axes, x: FloatArray) -> None:
     )
 
 
-def legend(axes: Axes, columns: int) -> None:
-    """Add a legend of all labelled lines above the data, for which the panel is extended upwards."""
+def legend(axes: Axes, columns: int, length: float = 1.3) -> None:
+    """Add a legend of all labelled lines above the data, for which the panel is extended upwards.
+
+    Line styles need longer pieces of line, of `length` letters, than colours do.
+    """
     rows = -(-len(axes.get_legend_handles_labels()[1]) // columns)
     part = (0.08 + 0.2 * rows) / _inches(axes)[1]
     scale = axes.get_yaxis().get_transform()
@@ -203,6 +219,21 @@ def legend(axes: Axes, columns: int) -> None:
         edgecolor="none",
         framealpha=1.0,
         borderaxespad=0.2,
+        handlelength=length,
+        columnspacing=0.9,
+    )
+
+
+def legend_above(axes: Axes) -> None:
+    """Add a legend above the panel, at the right of its title, where it covers no line of the panel."""
+    axes.legend(
+        loc="lower right",
+        bbox_to_anchor=(1.0, 1.0),
+        ncols=len(axes.get_legend_handles_labels()[1]),
+        fontsize=_INK - 1,
+        frameon=False,
+        borderaxespad=_ABOVE_NAMES / (_INK - 1),
+        borderpad=0.0,
         handlelength=1.3,
         columnspacing=0.9,
     )

@@ -43,9 +43,11 @@ def replace_folder(folder: str | os.PathLike[str]) -> Generator[Path, None, None
     InconsistentInputError
         If `folder` holds anything else (see `require_replaceable`).
 
-    Notes ----- Two renamings exchange the folders. An exception between them, Ctrl-C included, puts the old
-    folder back; if the computer itself stops at that moment, old and new folder are both complete, under
-    hidden names beside `folder`.
+    Notes
+    -----
+    Two renamings exchange the folders. An exception between them, Ctrl-C included, puts the old folder back;
+    if the computer itself stops at that moment, old and new folder are both complete, under hidden names
+    beside `folder`.
 
     Examples
     --------
@@ -86,14 +88,12 @@ def require_replaceable(folder: str | os.PathLike[str]) -> Path:
     Raises
     ------
     InconsistentInputError
-        If it is a file or cannot be made, contains the current working folder, or holds a file that is not listed in its
-        manifest or was changed since.
+        If it is a file, lies where nothing can be written, contains the current working folder, or holds a
+        file that is not listed in its manifest or was changed since.
     """
     target = Path(folder).resolve()
     if not target.exists():
-        above = next(parent for parent in target.parents if parent.exists())
-        if not (above.is_dir() and os.access(above, os.W_OK)):
-            raise InconsistentInputError(f"{folder} cannot be made: {above} is not writable")
+        _require_writable_above(target)
         return target
     if not target.is_dir():
         raise InconsistentInputError(f"{folder} is a file. Name a folder for the output")
@@ -105,7 +105,15 @@ def require_replaceable(folder: str | os.PathLike[str]) -> Path:
             f"{folder} is left as it is: {foreign} in it was not written by catenaria, or was changed since. "
             "Move that file away, or name another folder"
         )
+    _require_writable_above(target)
     return target
+
+
+def _require_writable_above(target: Path) -> None:
+    """Refuse a place where no folder can be made or renamed."""
+    above = next(parent for parent in target.parents if parent.exists())
+    if not (above.is_dir() and os.access(above, os.W_OK | os.X_OK)):
+        raise InconsistentInputError(f"{target} cannot be written: {above} is not a folder to write into")
 
 
 def _foreign_file(folder: Path) -> str | None:
