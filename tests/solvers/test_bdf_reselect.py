@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
@@ -64,9 +66,8 @@ def reference(t_end):
 
     t, state, piece, crossings = 0.0, np.array([X0, 0.0]), int(np.searchsorted(KNOTS, X0)) - 1, 0
     while t < t_end:
-        part = solve_ivp(
-            rhs, (t, t_end), state, args=(piece,), events=[border(0), border(1)], rtol=1e-10, atol=1e-12
-        )
+        borders: Any = [border(0), border(1)]
+        part = solve_ivp(rhs, (t, t_end), state, args=(piece,), events=borders, rtol=1e-10, atol=1e-12)
         t, state = part.t[-1], part.y[:, -1]
         if part.status == 1:
             piece += 1 if part.t_events[1].size else -1
