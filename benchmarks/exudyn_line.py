@@ -28,8 +28,8 @@ from catenaria.line import Conductor, Line
 sys.exudynFast = True  # pyright: ignore[reportAttributeAccessIssue]  # Exudyn's own switch: no range checks
 with warnings.catch_warnings():
     warnings.simplefilter("ignore", DeprecationWarning)
-    import exudyn as exu
-    import exudyn.itemInterface as item  # noqa: N813
+    import exudyn as exu  # pyright: ignore[reportMissingImports]
+    import exudyn.itemInterface as item  # noqa: N813  # pyright: ignore[reportMissingImports]
 
 FloatArray = NDArray[np.float64]
 
