@@ -229,10 +229,10 @@ SPOILT = [
     ("fine: [0.1 m, 0.3 m] ", "fine: [0.1 m, 0.09 m] ", "0.09 m", "solver.mesh.fine[1]", "more than 0.1 m"),
     (
         "largest_element: 2.4 m",
-        "gauss_points: 2",
+        "gauss_points: 3",
         "2     # in between",
         "solver.mesh.gauss_points",
-        "3 or more",
+        "4 or more",
     ),
     ("format: 1", "format: 2", "2\nname", "format", "1"),
     ("format: 1", "format: yes", "yes\nname", "format", "1"),
@@ -284,7 +284,7 @@ GOOD = [
     ("contact_wire_height: 0 m", "contact_wire_height: [0, 0, 0, 0, 0, 0, 0]"),
     ("      saturation: 100 N", "      saturation: 5.001 N"),
     ("  - messenger_wire: {height: 1.5 m}\n  - m", "  - messenger_wire: {height: 200 mm}\n  - m"),
-    ("largest_element: 2.4 m", "gauss_points: 3"),
+    ("largest_element: 2.4 m", "gauss_points: 4"),
     ("    density: 7710 kg/m^3\n", "    mass_per_length: 8 kg/m\n"),
 ]
 
