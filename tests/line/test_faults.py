@@ -230,7 +230,7 @@ SPOILT = [
     (
         "largest_element: 2.4 m",
         "gauss_points: 3",
-        "2     # in between",
+        "3     # in between",
         "solver.mesh.gauss_points",
         "4 or more",
     ),
