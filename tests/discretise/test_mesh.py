@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from catenaria.discretise.mesh import Grading, graded_knots, material_coordinate
+from catenaria.discretise.mesh import Grading, graded_knots
 from catenaria.errors import InconsistentInputError
 
 FloatArray = NDArray[np.float64]
@@ -130,10 +130,3 @@ def test_the_mirrored_wire_has_the_mirrored_mesh(places: list[int]) -> None:
     centres = 0.1 * np.array(places)
     knots = graded_knots(100.0, centres, GRADING)
     np.testing.assert_allclose(100.0 - graded_knots(100.0, 100.0 - centres, GRADING)[::-1], knots, atol=1e-9)
-
-
-def test_material_coordinate_of_a_stretched_wire() -> None:
-    """100 m stretched by 1 % about x = 7: the middle stays, an end lies 50.5 m from it."""
-    x = np.array([7.0, 57.5, -43.5])
-    np.testing.assert_allclose(material_coordinate(x, 7.0, 100.0, 0.01), [50.0, 100.0, 0.0], atol=1e-12)
-    np.testing.assert_allclose(material_coordinate(x, 7.0, 100.0, 0.0), [50.0, 100.5, -0.5], atol=1e-12)

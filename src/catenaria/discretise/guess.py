@@ -1,4 +1,4 @@
-"""A first guess of the equilibrium of a wire model: a taut string with its droppers."""
+"""A first guess of the equilibrium of a wire model: a taut wire with its droppers."""
 
 from __future__ import annotations
 
@@ -6,8 +6,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from catenaria.catenary.green_bar import stretch
-from catenaria.catenary.taut_string import taut_string
+from catenaria.discretise.tensioned_wire import TensionedWire
 from catenaria.discretise.wire_model import WireModel
+from catenaria.discretise.wire_setup import WireSetup
+from catenaria.mechanics.chain import Chain
 
 FloatArray = NDArray[np.float64]
 
@@ -17,62 +19,78 @@ def guess_equilibrium(model: WireModel) -> FloatArray:
 
     Notes
     -----
-    Wire: a taut string over its supports, under the droppers' forces or over the wanted heights, uniformly
-    stretched and placed symmetrically. Droppers: straight and stretched by their forces. Multipliers: the
-    forces of that string.
+    Wire: a taut wire over its supports, under the droppers' forces or over the wanted heights, stretched by
+    its tension. Droppers: straight and stretched by their forces. Multipliers: the forces of that wire.
     """
     setup = model.setup
     z = model.system.unknowns.start.copy()
-    middle, half = 0.5 * (setup.support_x[0] + setup.support_x[-1]), 0.5 * model.wire.knots[-1]
-    force, factor = setup.tension.force, float(stretch(setup.tension.force, setup.section.EA))
-    x = middle + (model.wire.knots - half) * factor
-    held, loads = _string(model)
-    weight = setup.section.rhoA * setup.g
-    height, slope = taut_string(x, held, force, weight, loads)
-    z[model.wire.nodes[:, 0]], z[model.wire.nodes[:, 2]] = x, height
-    z[model.wire.nodes[:, 3]], z[model.wire.nodes[:, 5]] = factor, factor * slope
-    z[model.pull] = half * (factor - 1.0)
-    for s in (model.support_s, model.clamp_s):
-        z[s] = half + (z[s] - half) / factor
-    z[model.end_force] = force * np.array([[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0]])
-    _place_droppers(model, z, _dropper_forces(model, held))
+    tensioned = TensionedWire.of(setup)
+    place_wire(setup, model.wire, tensioned, z)
+    z[model.pull] = tensioned.pull
+    z[model.support_s] = tensioned.material(setup.support_x)
+    slope = _lean(setup, tensioned)
+    upwards = 1.0 if setup.droppers.up else -1.0
+    z[model.clamp_s] = tensioned.material(setup.droppers.x + upwards * setup.droppers.length * slope)
+    z[model.end_force] = end_forces(tensioned)
+    z[model.support_force] = support_forces(setup, tensioned)
+    _place_droppers(model, z, dropper_forces(setup, tensioned), slope)
     return z
 
 
-def _string(
-    model: WireModel,
-) -> tuple[tuple[FloatArray, FloatArray], tuple[FloatArray, FloatArray] | None]:
-    """Return what holds the string and what pulls at it: wanted heights hold, wanted forces pull."""
-    setup, droppers = model.setup, model.setup.droppers
-    supports = setup.support_x, np.full_like(setup.support_x, setup.height)
-    if not droppers.up:
-        return supports, (droppers.x, droppers.target)
-    x = np.concatenate((supports[0], droppers.x))
-    order = np.argsort(x, kind="stable")
-    return (x[order], np.concatenate((supports[1], droppers.target))[order]), None
+def place_wire(setup: WireSetup, wire: Chain, tensioned: TensionedWire, z: FloatArray) -> None:
+    """Write the nodes of a tensioned wire into z."""
+    x = tensioned.place(wire.knots)
+    slope = tensioned.shape.slope(x)
+    inclined = np.hypot(1.0, slope)
+    along = stretch(setup.tension.force * inclined, setup.section.EA) / inclined
+    nodes = wire.nodes
+    z[nodes[:, 0]], z[nodes[:, 2]] = x, tensioned.shape.height(x)
+    z[nodes[:, 3]], z[nodes[:, 5]] = along, along * slope
 
 
-def _dropper_forces(model: WireModel, held: tuple[FloatArray, FloatArray]) -> FloatArray:
-    """Return the pull of each dropper: as wanted, or the kink of the string over the wanted heights."""
-    setup, droppers = model.setup, model.setup.droppers
-    if not droppers.up:
-        return droppers.target
-    x, height = held
-    bays, rise = np.diff(x), np.diff(height)
-    kink = np.diff(rise / bays)
-    pull = setup.section.rhoA * setup.g * 0.5 * (bays[:-1] + bays[1:]) - setup.tension.force * kink
-    return pull[np.isin(x[1:-1], droppers.x)]
+def _lean(setup: WireSetup, tensioned: TensionedWire) -> FloatArray:
+    """Return the slope of the wire at each dropper if that stands normal to it, else none."""
+    if setup.droppers.guided:
+        return np.zeros_like(setup.droppers.x)
+    return tensioned.shape.slope(setup.droppers.x)
 
 
-def _place_droppers(model: WireModel, z: FloatArray, force: FloatArray) -> None:
-    """Write straight, stretched dropper cables and their forces into z."""
+def end_forces(tensioned: TensionedWire) -> FloatArray:
+    """Return the forces of the wire's start and end on the tensioning devices, shape (2, 3)."""
+    slope = tensioned.shape.slope(tensioned.shape.x[[0, -1]])
+    along = np.column_stack((np.ones(2), np.zeros(2), slope))
+    return tensioned.shape.H * np.array([[1.0], [-1.0]]) * along / np.hypot(1.0, slope)[:, None]
+
+
+def support_forces(setup: WireSetup, tensioned: TensionedWire) -> FloatArray:
+    """Return the forces of the wire on its supports, which are normal to it, shape (m, 3)."""
+    down = _kink_forces(tensioned, setup.support_x)
+    slope = tensioned.shape.slope(setup.support_x)
+    return np.column_stack((-down * slope, np.zeros_like(down), down))
+
+
+def dropper_forces(setup: WireSetup, tensioned: TensionedWire) -> FloatArray:
+    """Return how much each dropper pulls at the wire, upwards at a contact wire, downwards at a messenger."""
+    upwards = 1.0 if setup.droppers.up else -1.0
+    return -upwards * _kink_forces(tensioned, setup.droppers.x)
+
+
+def _kink_forces(tensioned: TensionedWire, x: FloatArray) -> FloatArray:
+    """Return H J, the force of the wire on what kinks it at x, positive upwards."""
+    shape = tensioned.shape
+    return shape.H * shape.jump[np.searchsorted(shape.x, x)]
+
+
+def _place_droppers(model: WireModel, z: FloatArray, force: FloatArray, slope: FloatArray) -> None:
+    """Write straight, stretched dropper cables and their forces into z; `slope` is how much they lean."""
     droppers, upwards = model.setup.droppers, 1.0 if model.setup.droppers.up else -1.0
-    clamp_z = model.wire.evaluate(z, z[model.clamp_s]).r[:, 2]
-    factor = stretch(force, droppers.section.EA)
-    for cable, foot, stretched in zip(model.cables, clamp_z, factor, strict=True):
-        z[cable.nodes[:, 2]] = foot + upwards * stretched * cable.knots
-        z[cable.nodes[:, 5]] = upwards * stretched
+    clamp = model.wire.evaluate(z, z[model.clamp_s]).r
+    outwards = upwards * np.column_stack((-slope, np.zeros_like(slope), np.ones_like(slope)))
+    along = stretch(force, droppers.section.EA)[:, None] * outwards / np.hypot(1.0, slope)[:, None]
+    for cable, foot, r1 in zip(model.cables, clamp, along, strict=True):
+        z[cable.nodes[:, :3]] = foot + cable.knots[:, None] * r1
+        z[cable.nodes[:, 3:]] = r1
     far = np.array([cable.nodes[-1, 2] for cable in model.cables])
     z[model.dropper_travel] = upwards * (z[far] - model.system.unknowns.start[far])
-    z[model.clamp_force[:, 2]] = -upwards * force
-    z[model.free_force[:, 2]] = upwards * -force
+    pull = upwards * force[:, None] * np.column_stack((-slope, np.zeros_like(slope), np.ones_like(slope)))
+    z[model.clamp_force], z[model.free_force] = -pull, -pull

@@ -31,11 +31,14 @@ class Grading:
         Longest element [m].
     refine : int
         Into how many equal parts every element is divided in the end.
+    even : int, optional
+        Number of equal elements of the whole wire instead, wherever supports and clamps come to lie.
     """
 
     fine: tuple[float, ...]
     largest: float
     refine: int = 1
+    even: int | None = None
 
 
 def graded_knots(length: float, centres: Sequence[float] | FloatArray, grading: Grading) -> FloatArray:
@@ -68,6 +71,8 @@ def graded_knots(length: float, centres: Sequence[float] | FloatArray, grading: 
     middle = np.unique(np.asarray(centres, dtype=np.float64))
     if middle.size and not (middle[0] >= 0.0 and middle[-1] <= length):
         raise InconsistentInputError("a support or clamp lies beyond the end of its wire")
+    if grading.even is not None:
+        return np.linspace(0.0, length, grading.even * grading.refine + 1)
     primary = np.unique(np.concatenate(([0.0], middle, [length])))
     knots = [0.0]
     refined = np.isin(primary, middle).tolist()
@@ -92,24 +97,3 @@ def _between(left: float, right: float, fine_left: bool, fine_right: bool, gradi
         result.extend(a + (b - a) * k / count for k in range(1, count))
         result.append(b)
     return result
-
-
-def material_coordinate(x: FloatArray, middle: float, length: float, strain: float) -> FloatArray:
-    """Return the material coordinate that will lie at x when the wire is tensioned.
-
-    Parameters
-    ----------
-    x : FloatArray
-        Positions along the track [m].
-    middle : float
-        Position of the wire's fixed point, half way between its ends that are pulled apart [m].
-    length : float
-        Unstressed length of the wire [m].
-    strain : float
-        T/EA.
-
-    Notes
-    -----
-    s = length/2 + (x - middle)/(1 + strain); the excess of the arc over its chord is neglected.
-    """
-    return 0.5 * length + (x - middle) / (1.0 + strain)

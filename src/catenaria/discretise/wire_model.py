@@ -12,7 +12,8 @@ from dataclasses import dataclass, fields
 import numpy as np
 from numpy.typing import NDArray
 
-from catenaria.discretise.mesh import graded_knots, material_coordinate
+from catenaria.discretise.mesh import graded_knots
+from catenaria.discretise.tensioned_wire import TensionedWire
 from catenaria.discretise.wire_setup import DropperSetup, WireSetup
 from catenaria.mechanics.chain import Chain
 from catenaria.mechanics.controls.control import Controls
@@ -29,6 +30,7 @@ from catenaria.mechanics.unknowns import Kind, UnknownsBuilder
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 
+_DIGITS = 3  # of where nodes stand: the mesh does not change with the last digits of a force
 _ALONG, _UP = np.array([1.0, 0.0, 0.0]), np.array([0.0, 0.0, 1.0])
 
 
@@ -159,8 +161,7 @@ def straight_wire(setup: WireSetup, unknowns: UnknownsBuilder) -> Chain:
     first, last = setup.support_x[0], setup.support_x[-1]
     length = last - first + 2.0 * setup.tail
     will_be_held = np.concatenate((setup.support_x, setup.droppers.x))
-    strain = setup.tension.force / setup.section.EA
-    centres = material_coordinate(will_be_held, 0.5 * (first + last), length, strain)
+    centres = np.round(TensionedWire.of(setup).material(will_be_held), _DIGITS)
     knots = graded_knots(length, centres, setup.grading)
     position = np.column_stack(
         (first - setup.tail + knots, np.zeros_like(knots), np.full_like(knots, setup.height))
