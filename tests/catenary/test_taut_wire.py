@@ -99,7 +99,7 @@ def test_forces_of_kinks_carry_weight_and_loads(wire: TautWire) -> None:
 
 
 def test_hinged_ends_are_not_rounded() -> None:
-    """A single hinged span is a parabola whatever its bending stiffness; beyond the ends it goes straight on."""
+    """A single hinged span is a parabola whatever its bending stiffness, straight beyond its ends."""
     span = (np.array([0.0, 65.0]), np.zeros(2))
     stiff = TautWire.held(span, H, W, EJ)
     x = np.array([0.0, 0.05, 32.5, 65.0])

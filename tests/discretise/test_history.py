@@ -29,7 +29,7 @@ def states(model: WireModel) -> tuple[FloatArray, FloatArray]:
     stretched[model.wire.nodes[:, 0]] *= STRETCH
     stretched[model.wire.nodes[:, 3]] *= STRETCH
     stretched[model.end_force] = [[3.0, 0.0, 4.0], [-5.0, 0.0, 12.0]]
-    for chain in (model.wire, *model.cables):
+    for chain in (model.wire, *model.droppers.chains):
         flying[chain.nodes[:, 2]] = 0.7
     flying[model.pull] = 0.01
     return np.array([start, stretched, guess_equilibrium(model)]), np.array([0 * start, flying, 0 * start])
@@ -102,7 +102,7 @@ def test_parameters_and_velocities(model: WireModel) -> None:
     np.testing.assert_array_equal(course.parameter[0], 0.0)
     np.testing.assert_array_equal(course.velocity[1], [0.01, *np.zeros(21)])
     assert course.parameter[2, 0] == solution.y[2, model.pull[0]] > 0.05
-    np.testing.assert_array_equal(course.parameter[2, 1:], solution.y[2, model.dropper_travel])
+    np.testing.assert_array_equal(course.parameter[2, 1:], solution.y[2, model.droppers.travel])
 
 
 def check_energies(course: History, model: WireModel) -> None:

@@ -89,7 +89,7 @@ def test_another_curve_is_noticed(variant: Vary) -> None:
 def test_the_same_mesh_gives_the_same_unknowns(contact: WireModel) -> None:
     z = along_cubic(contact)
     z[contact.multipliers] = np.arange(contact.multipliers.size)
-    z[contact.pull], z[contact.dropper_travel] = 0.1, 0.01 * np.arange(21)
+    z[contact.pull], z[contact.droppers.travel] = 0.1, 0.01 * np.arange(21)
     again = start_from(contact, stage(contact, z))
     np.testing.assert_allclose(again.system.unknowns.start, z, atol=1e-12)
     np.testing.assert_array_equal(again.system.unknowns.kind, contact.system.unknowns.kind)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import fields, replace
+from operator import attrgetter
 from typing import Any
 
 import numpy as np
@@ -45,18 +46,18 @@ def test_the_start_is_at_rest(model: WireModel) -> None:
     assert np.abs(f[~constraint]).max() < 1e-4  # N: EA times the rounding of positions
 
 
-@pytest.mark.parametrize("what", ["support_s", "clamp_s", "pull", "dropper_travel"])
+@pytest.mark.parametrize("what", ["support_s", "clamp_s", "pull", "droppers.travel"])
 def test_another_start_is_not(model: WireModel, what: str) -> None:
     """A joint that stands elsewhere on the wire, or an end that was moved, leaves its constraint open."""
     z = model.system.unknowns.start.copy()
-    z[getattr(model, what)[-1]] += 1e-4
+    z[attrgetter(what)(model)[-1]] += 1e-4
     assert np.abs(residual(model, z)[constraints(model)]).max() == pytest.approx(1e-4, rel=1e-3)
 
 
 def test_every_unknown_is_named_once(model: WireModel) -> None:
-    chains = (model.wire, *model.cables)
+    chains = (model.wire, *model.droppers.chains)
     named = [chain.nodes.ravel() for chain in chains]
-    named += [model.support_s, model.clamp_s, model.pull, model.dropper_travel, model.multipliers]
+    named += [model.support_s, model.clamp_s, model.pull, model.droppers.travel, model.multipliers]
     np.testing.assert_array_equal(np.sort(np.concatenate(named)), np.arange(model.system.size))
     kind = model.system.unknowns.kind
     for where, wanted in (
@@ -65,7 +66,7 @@ def test_every_unknown_is_named_once(model: WireModel) -> None:
         (model.support_s, Kind.SLIDING),
         (model.clamp_s, Kind.SLIDING),
         (model.pull, Kind.PARAMETER),
-        (model.dropper_travel, Kind.PARAMETER),
+        (model.droppers.travel, Kind.PARAMETER),
         (model.multipliers, Kind.MULTIPLIER),
     ):
         assert (kind[where] == wanted).all()
@@ -129,7 +130,7 @@ def test_cables_stand_up_from_the_contact_wire_and_hang_from_the_messenger(
 ) -> None:
     for model, upwards in ((contact, 1.0), (messenger, -1.0)):
         z = model.system.unknowns.start
-        for cable, x in zip(model.cables, model.setup.droppers.x, strict=True):
+        for cable, x in zip(model.droppers.chains, model.setup.droppers.x, strict=True):
             np.testing.assert_allclose(z[cable.nodes[:, 0]], x)
             np.testing.assert_allclose(z[cable.nodes[:, 2]], model.setup.height + upwards * cable.knots)
             assert cable.knots[-1] == 1.5
@@ -150,7 +151,7 @@ def test_joints_will_stand_at_nodes_when_the_wire_is_tensioned(model: WireModel)
 def total_weight(model: WireModel) -> float:
     """Sum the vertical weight over all nodes [N]."""
     gravity = next(part for part in model.system.contributions if isinstance(part, Gravity))
-    up = np.concatenate([chain.nodes[:, 2] for chain in (model.wire, *model.cables)])
+    up = np.concatenate([chain.nodes[:, 2] for chain in (model.wire, *model.droppers.chains)])
     return -float(gravity.g * gravity.weight[up].sum())
 
 
@@ -165,7 +166,7 @@ def test_everything_weighs_what_it_weighs(variant: Vary, clamp: float) -> None:
 def test_gravity_and_controls_come_in_with_their_ramps(contact: WireModel) -> None:
     """At t = 0 nothing happens, at the end of the ramp everything weighs and every control runs."""
     z = contact.system.unknowns.start
-    moved = np.concatenate((contact.pull, contact.dropper_travel))
+    moved = np.concatenate((contact.pull, contact.droppers.travel))
     late = residual(contact, z, t=5.0)
     heavy = build_wire_model(replace(contact.setup, gravity_ramp=Ramp(0.0)))
     uncontrolled = residual(heavy, z)
@@ -178,7 +179,7 @@ def test_gravity_and_controls_come_in_with_their_ramps(contact: WireModel) -> No
 
 def test_renumbering_reaches_every_field(contact: WireModel) -> None:
     """No index array of the model was left with the numbers of its building."""
-    arrays = [getattr(contact, item.name) for item in fields(contact)]
+    arrays = [getattr(part, item.name) for part in (contact, contact.droppers) for item in fields(part)]
     arrays = [array for array in arrays if isinstance(array, np.ndarray)]
     together = np.concatenate([array.ravel() for array in arrays])
     assert len(arrays) == 8

@@ -58,7 +58,7 @@ def moved(model: WireModel) -> Motion:
 
 
 def clamp_forces(motion: Motion) -> np.ndarray:
-    return -motion.z[motion.model.clamp_force[:, 2]]
+    return -motion.z[motion.model.droppers.clamp_force[:, 2]]
 
 
 def crossed(motion: Motion) -> tuple[int, int]:

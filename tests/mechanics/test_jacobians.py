@@ -24,6 +24,7 @@ from catenaria.mechanics.controls.given import Given
 from catenaria.mechanics.controls.measures import (
     DropperForce,
     Height,
+    HungForce,
     ReactionTension,
     StrainTension,
     WireHeight,
@@ -35,6 +36,7 @@ from catenaria.mechanics.elements.dropper import Droppers
 from catenaria.mechanics.joints.fixed import FixedJoints, normals
 from catenaria.mechanics.joints.guided import GuidedJoints
 from catenaria.mechanics.joints.held_point import HeldPoints
+from catenaria.mechanics.joints.hung_point import HungPoints
 from catenaria.mechanics.joints.sliding import SlidingJoints
 from catenaria.mechanics.joints.spherical import SphericalJoints
 from catenaria.mechanics.loads.gravity import Gravity, Ramp
@@ -146,6 +148,11 @@ def dropper() -> DropperForce:
     return DropperForce(LA[[2, 5]], OTHER[:, 2], np.array([-0.4, 0.3]), 0.2, np.array([0.3, 0.5]), 9.81, RAMP)
 
 
+def hung_force() -> HungForce:
+    top = WireHeight(WIRE, S, IN_ELEMENT)
+    return HungForce(LA[:2], top, np.array([-0.4, 0.3]), 0.2, np.array([0.3, 0.5]), 9.81)
+
+
 def controls(measure: Measure, parameter: NDArray[np.int64]) -> Controls:
     """Return controls whose errors lie on both curved branches of the law, far from its breaks."""
     return aimed(
@@ -177,6 +184,7 @@ PARTS: dict[str, Entry] = {
     "SlidingJoints": Entry(supports),
     "SlidingJoints of nodes": Entry(clamps),
     "GuidedJoints": Entry(guides),
+    "HungPoints": Entry(lambda: HungPoints(WIRE, S, LA[:2], IN_ELEMENT, UNIT[:, 0])),
     "FixedJoints": Entry(fixed),
     "SphericalJoints": Entry(hinges),
     "HeldPoints": Entry(held),
@@ -195,6 +203,7 @@ MEASURES: dict[str, Callable[[], Measure]] = {
     "WireHeight": lambda: WireHeight(WIRE, S, IN_ELEMENT),
     "Height": height,
     "DropperForce": dropper,
+    "HungForce": hung_force,
 }
 
 
@@ -407,8 +416,8 @@ def test_jacobian_after_relocation(name: str) -> None:
     z[S] = [1.9, 0.7]
     state = replace(state, z=z)
     other = part.relocate(z)
-    moved = ("SlidingJoints", "SlidingJoints of nodes", "GuidedJoints", "Controls of strain", "Targets")
-    if name in (*moved, "Droppers", "Droppers clamped"):
+    moved = ("SlidingJoints", "SlidingJoints of nodes", "GuidedJoints", "HungPoints")
+    if name in (*moved, "Controls of strain", "Targets", "Droppers", "Droppers clamped"):
         assert other is not None
         assert isinstance(other, Contribution)
         other = aimed(other, state) if isinstance(other, Controls) else other

@@ -1,4 +1,4 @@
-"""A first guess of the equilibrium of a wire model: a taut wire with its droppers."""
+"""A first guess of equilibrium: a taut wire with its droppers."""
 
 from __future__ import annotations
 
@@ -6,10 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from catenaria.catenary.green_bar import stretch
-from catenaria.discretise.tensioned_wire import TensionedWire
+from catenaria.discretise.hung_wire import HungWire
 from catenaria.discretise.wire_model import WireModel
-from catenaria.discretise.wire_setup import WireSetup
-from catenaria.mechanics.chain import Chain
 
 FloatArray = NDArray[np.float64]
 
@@ -22,75 +20,83 @@ def guess_equilibrium(model: WireModel) -> FloatArray:
     Wire: a taut wire over its supports, under the droppers' forces or over the wanted heights, stretched by
     its tension. Droppers: straight and stretched by their forces. Multipliers: the forces of that wire.
     """
-    setup = model.setup
     z = model.system.unknowns.start.copy()
-    tensioned = TensionedWire.of(setup)
-    place_wire(setup, model.wire, tensioned, z)
-    z[model.pull] = tensioned.pull
-    z[model.support_s] = tensioned.material(setup.support_x)
-    slope = _lean(setup, tensioned)
-    upwards = 1.0 if setup.droppers.up else -1.0
-    z[model.clamp_s] = tensioned.material(setup.droppers.x + upwards * setup.droppers.length * slope)
-    z[model.end_force] = end_forces(tensioned)
-    z[model.support_force] = support_forces(setup, tensioned)
-    _place_droppers(model, z, dropper_forces(setup, tensioned), slope)
+    guess_wire(model, z)
+    _place_droppers(model, z)
     return z
 
 
-def place_wire(setup: WireSetup, wire: Chain, tensioned: TensionedWire, z: FloatArray) -> None:
-    """Write the nodes of a tensioned wire into z."""
-    x = tensioned.place(wire.knots)
-    slope = tensioned.shape.slope(x)
+def guess_wire(hung: HungWire, z: FloatArray) -> None:
+    """Write a tensioned wire, its joints and the forces of its supports and ends into z."""
+    setup, tensioned = hung.setup, hung.tensioned
+    _place_wire(hung, z)
+    z[hung.pull] = tensioned.pull
+    z[hung.support_s] = tensioned.material(setup.support_x)
+    z[hung.clamp_s] = tensioned.material(setup.droppers.x + setup.droppers.length * _lean(hung))
+    z[hung.end_force] = _end_forces(hung)
+    z[hung.support_force] = _support_forces(hung)
+
+
+def dropper_forces(hung: HungWire) -> FloatArray:
+    """Return how much each dropper pulls at the wire, upwards at a contact wire, downwards at a messenger."""
+    return -_upwards(hung) * _kink_forces(hung, hung.setup.droppers.x)
+
+
+def _upwards(hung: HungWire) -> float:
+    return 1.0 if hung.setup.droppers.up else -1.0
+
+
+def _place_wire(hung: HungWire, z: FloatArray) -> None:
+    shape, nodes = hung.tensioned.shape, hung.wire.nodes
+    x = hung.tensioned.place(hung.wire.knots)
+    slope = shape.slope(x)
     inclined = np.hypot(1.0, slope)
-    along = stretch(setup.tension.force * inclined, setup.section.EA) / inclined
-    nodes = wire.nodes
-    z[nodes[:, 0]], z[nodes[:, 2]] = x, tensioned.shape.height(x)
+    along = stretch(shape.H * inclined, hung.wire.section.EA) / inclined
+    z[nodes[:, 0]], z[nodes[:, 2]] = x, shape.height(x)
     z[nodes[:, 3]], z[nodes[:, 5]] = along, along * slope
 
 
-def _lean(setup: WireSetup, tensioned: TensionedWire) -> FloatArray:
-    """Return the slope of the wire at each dropper if that stands normal to it, else none."""
-    if setup.droppers.guided:
-        return np.zeros_like(setup.droppers.x)
-    return tensioned.shape.slope(setup.droppers.x)
+def _lean(hung: HungWire) -> FloatArray:
+    """Return how far the wire's end of each dropper is moved along the track, per length of the dropper.
+
+    A guided dropper is vertical, a frictionless one normal to the wire.
+    """
+    if hung.setup.droppers.guided:
+        return np.zeros_like(hung.setup.droppers.x)
+    return _upwards(hung) * hung.tensioned.shape.slope(hung.setup.droppers.x)
 
 
-def end_forces(tensioned: TensionedWire) -> FloatArray:
+def _end_forces(hung: HungWire) -> FloatArray:
     """Return the forces of the wire's start and end on the tensioning devices, shape (2, 3)."""
-    slope = tensioned.shape.slope(tensioned.shape.x[[0, -1]])
-    along = np.column_stack((np.ones(2), np.zeros(2), slope))
-    return tensioned.shape.H * np.array([[1.0], [-1.0]]) * along / np.hypot(1.0, slope)[:, None]
+    shape = hung.tensioned.shape
+    slope = shape.slope(shape.x[[0, -1]])
+    along = np.column_stack((np.ones(2), np.zeros(2), slope)) / np.hypot(1.0, slope)[:, None]
+    return shape.H * np.array([[1.0], [-1.0]]) * along
 
 
-def support_forces(setup: WireSetup, tensioned: TensionedWire) -> FloatArray:
+def _support_forces(hung: HungWire) -> FloatArray:
     """Return the forces of the wire on its supports, which are normal to it, shape (m, 3)."""
-    down = _kink_forces(tensioned, setup.support_x)
-    slope = tensioned.shape.slope(setup.support_x)
-    return np.column_stack((-down * slope, np.zeros_like(down), down))
+    x = hung.setup.support_x
+    force, slope = _kink_forces(hung, x), hung.tensioned.shape.slope(x)
+    return np.column_stack((-force * slope, np.zeros_like(force), force))
 
 
-def dropper_forces(setup: WireSetup, tensioned: TensionedWire) -> FloatArray:
-    """Return how much each dropper pulls at the wire, upwards at a contact wire, downwards at a messenger."""
-    upwards = 1.0 if setup.droppers.up else -1.0
-    return -upwards * _kink_forces(tensioned, setup.droppers.x)
-
-
-def _kink_forces(tensioned: TensionedWire, x: FloatArray) -> FloatArray:
+def _kink_forces(hung: HungWire, x: FloatArray) -> FloatArray:
     """Return H J, the force of the wire on what kinks it at x, positive upwards."""
-    shape = tensioned.shape
+    shape = hung.tensioned.shape
     return shape.H * shape.jump[np.searchsorted(shape.x, x)]
 
 
-def _place_droppers(model: WireModel, z: FloatArray, force: FloatArray, slope: FloatArray) -> None:
-    """Write straight, stretched dropper cables and their forces into z; `slope` is how much they lean."""
-    droppers, upwards = model.setup.droppers, 1.0 if model.setup.droppers.up else -1.0
+def _place_droppers(model: WireModel, z: FloatArray) -> None:
+    """Write straight, stretched dropper cables and their forces into z."""
+    droppers, upwards = model.droppers, _upwards(model)
+    force, lean = dropper_forces(model), _lean(model)
     clamp = model.wire.evaluate(z, z[model.clamp_s]).r
-    outwards = upwards * np.column_stack((-slope, np.zeros_like(slope), np.ones_like(slope)))
-    along = stretch(force, droppers.section.EA)[:, None] * outwards / np.hypot(1.0, slope)[:, None]
-    for cable, foot, r1 in zip(model.cables, clamp, along, strict=True):
+    outwards = np.column_stack((-lean, np.zeros_like(lean), np.full_like(lean, upwards)))
+    factor = stretch(force, model.setup.droppers.section.EA) / np.hypot(1.0, lean)
+    for cable, foot, r1 in zip(droppers.chains, clamp, factor[:, None] * outwards, strict=True):
         z[cable.nodes[:, :3]] = foot + cable.knots[:, None] * r1
         z[cable.nodes[:, 3:]] = r1
-    far = np.array([cable.nodes[-1, 2] for cable in model.cables])
-    z[model.dropper_travel] = upwards * (z[far] - model.system.unknowns.start[far])
-    pull = upwards * force[:, None] * np.column_stack((-slope, np.zeros_like(slope), np.ones_like(slope)))
-    z[model.clamp_force], z[model.free_force] = -pull, -pull
+    far = droppers.outer[:, 2]
+    z[droppers.travel] = upwards * (z[far] - model.system.unknowns.start[far])
+    z[droppers.clamp_force] = z[droppers.free_force] = -force[:, None] * outwards

@@ -17,13 +17,13 @@ FloatArray = NDArray[np.float64]
 def control_names(model: WireModel) -> tuple[str, ...]:
     """Return the names of the tension control and of the dropper controls."""
     quantity = "height at" if model.setup.droppers.up else "force of"
-    droppers = (f"{quantity} dropper {i}" for i in range(1, len(model.cables) + 1))
+    droppers = (f"{quantity} dropper {i}" for i in range(1, len(model.droppers.chains) + 1))
     return (f"{model.setup.name} tension", *droppers)
 
 
 def control_units(model: WireModel) -> tuple[str, ...]:
     """Return the units of the controls' errors."""
-    return ("N",) + ("m" if model.setup.droppers.up else "N",) * len(model.cables)
+    return ("N",) + ("m" if model.setup.droppers.up else "N",) * len(model.droppers.chains)
 
 
 def control_errors(controls: tuple[Controls, ...], t: float, z: FloatArray) -> FloatArray:

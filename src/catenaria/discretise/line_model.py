@@ -11,61 +11,20 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from catenaria.discretise.wire_model import WireModel, hold_wire, straight_wire, tension_control
+from catenaria.discretise.hung_wire import HungWire
 from catenaria.discretise.wire_setup import WireSetup
-from catenaria.mechanics.chain import Chain
 from catenaria.mechanics.contribution import Contribution
 from catenaria.mechanics.controls.given import Given
 from catenaria.mechanics.controls.measures import WireHeight
 from catenaria.mechanics.controls.target import Targets
 from catenaria.mechanics.elements.cable import CableElements
 from catenaria.mechanics.elements.dropper import Droppers
-from catenaria.mechanics.joints.held_point import HeldPoints
-from catenaria.mechanics.joints.sliding import SlidingJoints
 from catenaria.mechanics.loads.gravity import Gravity, Ramp
 from catenaria.mechanics.system import System
 from catenaria.mechanics.unknowns import Kind, Unknowns, UnknownsBuilder
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
-
-
-@dataclass(frozen=True)
-class HungWire:
-    """One wire of the line and where its unknowns are; names as in `WireModel`."""
-
-    setup: WireSetup
-    wire: Chain
-    support_s: IntArray
-    support_force: IntArray
-    end_force: IntArray
-    clamp_s: IntArray
-    pull: IntArray
-
-    @classmethod
-    def of(cls, setup: WireSetup, unknowns: UnknownsBuilder) -> HungWire:
-        """Lay the wire out straight and number its unknowns."""
-        held, hung = setup.support_x, setup.droppers.x
-        ends = held[[0, -1]] + [-setup.tail, setup.tail]
-        return cls(
-            setup,
-            straight_wire(setup, unknowns),
-            unknowns.add(Kind.SLIDING, held - ends[0], held),
-            unknowns.add(Kind.MULTIPLIER, np.zeros((held.size, 3)), held),
-            unknowns.add(Kind.MULTIPLIER, np.zeros((2, 3)), ends),
-            unknowns.add(Kind.SLIDING, hung - ends[0], hung),
-            unknowns.add(Kind.PARAMETER, np.zeros(1), ends[1]),
-        )
-
-    def renumbered(self, number: IntArray) -> HungWire:
-        """Return the same with final numbers."""
-        batches = (self.support_s, self.support_force, self.end_force, self.clamp_s, self.pull)
-        return HungWire(self.setup, self.wire.renumbered(number), *(number[batch] for batch in batches))
-
-    def joints(self, start: FloatArray) -> tuple[SlidingJoints, HeldPoints]:
-        """Return supports and driven ends; pulls count from the starting values."""
-        support, end = (self.support_s, self.support_force), (self.pull, self.end_force)
-        return hold_wire(self.setup, self.wire, start, support, end)
 
 
 @dataclass(frozen=True)
@@ -116,9 +75,7 @@ class LineModel:
         heights = WireHeight(lower.wire, lower.clamp_s, lower.wire.locate(z[lower.clamp_s]))
         targets: list[Contribution] = [Targets(self.length, heights, lower.setup.droppers.target)]
         for hung in (self.contact, self.messenger):
-            targets.append(
-                Targets.of(tension_control(hung.setup, *hung.joints(self.unknowns.start), hung.pull))
-            )
+            targets.append(Targets.of(hung.tension_control(*hung.joints(self.unknowns.start))))
         return self._system(z, targets, self.droppers(z, False))
 
     def as_built(self, z: FloatArray, may_push: bool = False) -> System:
@@ -144,10 +101,3 @@ def build_line_model(contact: WireSetup, messenger: WireSetup) -> LineModel:
     length = unknowns.add(Kind.PARAMETER, np.full(contact.droppers.x.size, height), contact.droppers.x)
     table, number = unknowns.build_along_line()
     return LineModel(table, lower.renumbered(number), upper.renumbered(number), number[length])
-
-
-def copy_wire(hung: HungWire, model: WireModel, source: FloatArray, z: FloatArray) -> None:
-    """Write the state of a wire of one step into the unknowns z of the whole line."""
-    for name in ("support_s", "support_force", "end_force", "clamp_s", "pull"):
-        z[getattr(hung, name)] = source[getattr(model, name)]
-    z[hung.wire.nodes] = source[model.wire.nodes]

@@ -126,7 +126,7 @@ def wire_form(model: WireModel, control: ControlBatch, t: float, z: FloatArray) 
 
 def stage(model: WireModel, z: FloatArray) -> Stage:
     """Return the state as values that another run can start from."""
-    chains = (model.wire, *model.cables)
+    chains = (model.wire, *model.droppers.chains)
     nodes = np.concatenate([chain.nodes for chain in chains])
     names = (model.setup.name, *(f"dropper {i}" for i in range(1, len(chains))))
     return Stage(
@@ -137,6 +137,6 @@ def stage(model: WireModel, z: FloatArray) -> Stage:
         position=z[nodes[:, :3]],
         slope=z[nodes[:, 3:]],
         sliding_coordinate=z[np.concatenate((model.support_s, model.clamp_s))],
-        parameter=z[np.concatenate((model.pull, model.dropper_travel))],
+        parameter=z[np.concatenate((model.pull, model.droppers.travel))],
         multiplier=z[model.multipliers],
     )

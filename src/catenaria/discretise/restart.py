@@ -60,7 +60,7 @@ def start_from(model: WireModel, stage: Stage) -> WireModel:
     InconsistentInputError
         If the earlier result has other cables, other cable lengths, or joints elsewhere.
     """
-    chains = (model.wire, *model.cables)
+    chains = (model.wire, *model.droppers.chains)
     if len(chains) != stage.node_count.size:
         raise InconsistentInputError(
             f"the earlier result has {stage.node_count.size - 1} droppers, the line has {len(chains) - 1}"
@@ -82,7 +82,7 @@ def start_from(model: WireModel, stage: Stage) -> WireModel:
         nodes = np.hstack((stage.position[first:last], stage.slope[first:last]))
         z[chain.nodes] = _interpolate(knots, nodes, np.minimum(chain.knots, knots[-1]))
     z[places] = stage.sliding_coordinate
-    z[np.concatenate((model.pull, model.dropper_travel))] = stage.parameter
+    z[np.concatenate((model.pull, model.droppers.travel))] = stage.parameter
     z[model.multipliers] = stage.multiplier
     _refuse_elsewhere(model, z)
     system = System(Unknowns(model.system.unknowns.kind, z), model.system.contributions)

@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 from catenaria.catenary.green_bar import stretch
 from catenaria.discretise.from_line import contact_wire_setup, messenger_wire_setup
 from catenaria.discretise.guess import guess_equilibrium
-from catenaria.discretise.line_model import LineModel, build_line_model, copy_wire
+from catenaria.discretise.hung_wire import copy_wire
+from catenaria.discretise.line_model import LineModel, build_line_model
 from catenaria.discretise.wire_model import build_wire_model
 from catenaria.formfinding.static_problem import find_rest
 from catenaria.line import Line
@@ -72,13 +73,22 @@ def find_coupled_form(line: Line) -> CoupledForm:
     return _form(model, find_rest(model.to_find(z), z))
 
 
-def guess_line(line: Line) -> tuple[LineModel, FloatArray]:
-    """Return the line and a first guess of its equilibrium: two taut strings with droppers between them."""
+def guess_line(line: Line, feet: tuple[FloatArray, FloatArray] | None = None) -> tuple[LineModel, FloatArray]:
+    """Return the line and a first guess of its equilibrium: two taut strings with droppers between them.
+
+    Parameters
+    ----------
+    line : Line
+        What the engineer describes.
+    feet : tuple of FloatArray, shape (n,) each, optional
+        Forces of the droppers on the contact wire [N] and its heights there [m], if they are known: the guess
+        and the messenger's mesh follow from them.
+    """
     contact = replace(contact_wire_setup(line), gravity_ramp=Ramp(0.0))
     lower = build_wire_model(contact)
     below = guess_equilibrium(lower)
-    force = -below[lower.clamp_force[:, 2]]
-    messenger = replace(messenger_wire_setup(line, force, contact.droppers.target), gravity_ramp=Ramp(0.0))
+    force, height = feet or (-below[lower.droppers.clamp_force[:, 2]], contact.droppers.target)
+    messenger = replace(messenger_wire_setup(line, force, height), gravity_ramp=Ramp(0.0))
     upper = build_wire_model(messenger)
     above = guess_equilibrium(upper)
     model = build_line_model(contact, messenger)

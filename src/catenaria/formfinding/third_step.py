@@ -50,13 +50,13 @@ class Rest:
 
 def clamp_height(step: Rest) -> FloatArray:
     """Return the height of the wire at every dropper [m]."""
-    feet = np.array([cable.nodes[0, 2] for cable in step.model.cables])
+    feet = np.array([cable.nodes[0, 2] for cable in step.model.droppers.chains])
     return step.z[feet]
 
 
 def foot_force(step: Rest) -> FloatArray:
     """Return the forces T_cd that the droppers exert on the contact wire [N]."""
-    return -step.z[step.model.clamp_force[:, 2]]
+    return -step.z[step.model.droppers.clamp_force[:, 2]]
 
 
 def gather(
@@ -88,7 +88,7 @@ def gather(
     """
     steps = (contact, messenger)
     droppers = dropper_schedule(line, contact, messenger)
-    refuse_impossible(droppers)
+    refuse_impossible(line, droppers, steps)
     return FormResult(
         name=line.name,
         method=method,
@@ -117,7 +117,7 @@ def dropper_schedule(line: Line, contact: Rest, messenger: Rest) -> Droppers:
     foot, top = clamp_height(contact), clamp_height(messenger)
     length = np.linalg.norm(_clamps(messenger) - _clamps(contact), axis=1)
     force_bottom = foot_force(contact)
-    force_top = messenger.z[messenger.model.clamp_force[:, 2]]
+    force_top = messenger.z[messenger.model.droppers.clamp_force[:, 2]]
     inner_force = 0.5 * (
         force_top - kind.clamp_mass_top * line.gravity + force_bottom + kind.clamp_mass_bottom * line.gravity
     )
@@ -149,51 +149,116 @@ def dropper_schedule(line: Line, contact: Rest, messenger: Rest) -> Droppers:
 
 def _clamps(step: Rest) -> FloatArray:
     """Return where the droppers are clamped to the wire, shape (n, 3)."""
-    return step.z[np.array([cable.nodes[0, :3] for cable in step.model.cables])]
+    return step.z[np.array([cable.nodes[0, :3] for cable in step.model.droppers.chains])]
 
 
-def refuse_compression(force_bottom: FloatArray) -> None:
+def refuse_compression(line: Line, force_bottom: FloatArray, contact: Rest) -> None:
     """Refuse a contact wire that droppers would have to push down.
+
+    Parameters
+    ----------
+    line : Line
+        The line.
+    force_bottom : FloatArray, shape (n,)
+        Forces T_cd [N].
+    contact : Rest
+        The contact wire at rest: what the error carries.
 
     Raises
     ------
     InfeasibleError
         Naming the droppers, and what would help.
+
+    Notes
+    -----
+    A dropper carries what hangs on it less what the tension T lifts by the kink k of the wanted heights,
+    T_cd = W - T k: with T_cd < 0, no tension above T W/(W - T_cd) would do.
     """
-    _refuse(force_bottom < 0.0, force_bottom, "N", "would be in compression", _PUSHED)
+    pushed = force_bottom < 0.0
+    if np.any(pushed):
+        carried = _carried(contact)[pushed]
+        tension = contact.model.setup.tension.force
+        enough = tension * float(np.min(carried / (carried - force_bottom[pushed])))
+        advice = (
+            "The wanted heights are below where the tension lets the contact wire hang: a smaller pre-sag, a "
+            f"tension below about {_two_digits(enough / 1e3)} kN or other dropper positions would help"
+        )
+        _refuse(line, pushed, force_bottom, "N", "would be in compression", advice, (contact,))
 
 
-def refuse_impossible(droppers: Droppers) -> None:
+def _two_digits(value: float) -> str:
+    return f"{float(f'{value:.2g}'):g}"
+
+
+def _carried(contact: Rest) -> FloatArray:
+    """Return what would hang on every dropper if the contact wire had no tension [N]."""
+    setup = contact.model.setup
+    held = np.union1d(setup.support_x, setup.droppers.x)
+    place = np.searchsorted(held, setup.droppers.x)
+    bay = 0.5 * (held[np.minimum(place + 1, held.size - 1)] - held[np.maximum(place - 1, 0)])
+    return setup.g * (setup.section.rhoA * bay + setup.droppers.clamp_mass)
+
+
+def refuse_impossible(line: Line, droppers: Droppers, steps: tuple[Rest, Rest]) -> None:
     """Refuse a schedule that cannot be built.
+
+    Parameters
+    ----------
+    line : Line
+        The line.
+    droppers : Droppers
+        The schedule.
+    steps : tuple of Rest
+        Contact wire and messenger at rest: what the error carries.
 
     Raises
     ------
     InfeasibleError
         Naming droppers that would be in compression or without length, and what would help.
     """
-    refuse_compression(droppers.force_bottom)
-    upside_down = droppers.messenger_height <= droppers.height
-    _refuse(upside_down, droppers.messenger_height - droppers.height, "m", "would stand upside down", _SLACK)
-    _refuse(droppers.cut_length <= 0.0, droppers.cut_length, "m", "would be cut to nothing", _SHORT)
+    refuse_compression(line, droppers.force_bottom, steps[0])
+    distance = droppers.messenger_height - droppers.height
+    _refuse(line, distance <= 0.0, distance, "m", "would stand upside down", _SLACK, steps)
+    cut = droppers.cut_length
+    _refuse(line, cut <= 0.0, cut, "m", "would be cut to nothing", _SHORT, steps)
 
 
-def _refuse(wrong: NDArray[np.bool_], size: FloatArray, unit: str, what: str, advice: str) -> None:
+def _refuse(
+    line: Line,
+    wrong: NDArray[np.bool_],
+    size: FloatArray,
+    unit: str,
+    what: str,
+    advice: str,
+    partial: tuple[Rest, ...],
+) -> None:
     if np.any(wrong):
-        where = ", ".join(f"{i + 1} ({size[i]:.4g} {unit})" for i in np.flatnonzero(wrong))
-        raise InfeasibleError(f"droppers {what}: {where}. {advice}")
+        sizes = [f"{value:.4g} {unit}" for value in size[wrong]]
+        where = _named(line, np.flatnonzero(wrong), sizes)
+        raise InfeasibleError(f"droppers {what}: {where}. {advice}", partial)
 
 
-_PUSHED = (
-    "The wanted heights are below where the tension lets the contact wire hang: a smaller pre-sag, a lower "
-    "tension or other dropper positions would help"
-)
+def _named(line: Line, droppers: NDArray[np.intp], sizes: list[str]) -> str:
+    """Return numbers within spans with sizes; the span is named if there are several."""
+    span = np.array(line.dropper_span)
+    number = droppers - np.searchsorted(span, span[droppers]) + 1
+    named = [f"{n} ({size})" for n, size in zip(number, sizes, strict=True)]
+    if len(line.spans) == 1:
+        return ", ".join(named)
+    return "; ".join(
+        ", ".join(name for name, at in zip(named, span[droppers], strict=True) if at == i)
+        + f" in span {i + 1}"
+        for i in np.unique(span[droppers])
+    )
+
+
 _SLACK = "The messenger sags below the contact wire: more tension or higher supports would help"
 _SHORT = "The clamps bridge more than there is between the wires: check the clamp heights"
 
 
 def _on_wire(step: Rest) -> FloatArray:
     """Return the forces of droppers and clamps on the wire, shape (n, 3), without those of guides."""
-    force = -step.z[step.model.clamp_force]
+    force = -step.z[step.model.droppers.clamp_force]
     along = 0.0 if step.model.setup.droppers.guided else 1.0
     return force * np.array([along, 1.0, 1.0])
 

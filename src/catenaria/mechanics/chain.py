@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from catenaria.errors import InconsistentInputError, InfeasibleError
-from catenaria.numerics.hermite import shape, shape_1, shape_2
+from catenaria.mechanics.kernels.points import chain_points
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -103,20 +103,11 @@ class Chain:
         stays = (s >= self.knots[element] - overlap) & (s <= self.knots[element + 1] + overlap)
         return np.where(stays, element, self.locate(s))
 
-    def local(self, s: FloatArray, element: IntArray) -> tuple[FloatArray, FloatArray]:
-        """Return the dimensionless coordinate (5) within the given elements and their lengths [m]."""
-        L = self.knots[element + 1] - self.knots[element]
-        return 2.0 * (s - self.knots[element]) / L - 1.0, L
-
     def evaluate(self, z: FloatArray, s: FloatArray, element: IntArray | None = None) -> Points:
         """Return shape functions, r, r' and r'' at material coordinates s, shape (n,)."""
         element = self.locate(s) if element is None else element
-        xi, L = self.local(s, element)
-        dofs = np.concatenate((self.nodes[element], self.nodes[element + 1]), axis=1)
-        q = z[dofs].reshape(-1, 4, 3)
-        N, N1, N2 = shape(xi, L), shape_1(xi, L), shape_2(xi, L)
-        r, r1, r2 = (np.einsum("nk,nki->ni", functions, q) for functions in (N, N1, N2))
-        return Points(dofs.reshape(-1, 4, 3), N, N1, r, r1, r2)
+        dofs, N, N1, r = chain_points(z, self.nodes, self.knots, s, element)
+        return Points(dofs, N, N1, *r)
 
 
 @dataclass(frozen=True, slots=True)

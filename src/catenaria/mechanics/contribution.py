@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import Protocol, runtime_checkable
 
 import numpy as np
@@ -42,3 +43,9 @@ class Relocatable(Protocol):
     def relocate(self, z: FloatArray) -> Contribution | None:
         """Return the contribution with the discrete state that fits z, or None if its own still fits."""
         ...
+
+
+@lru_cache
+def offers(kind: type, protocol: type) -> bool:
+    """Return whether a class has all methods of a protocol; remembered, because looking takes a while."""
+    return issubclass(kind, protocol)

@@ -8,13 +8,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import cast
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csc_matrix
 
 from catenaria.errors import InconsistentInputError
-from catenaria.mechanics.contribution import Contribution, Relocatable
+from catenaria.mechanics.contribution import Contribution, Relocatable, offers
+from catenaria.mechanics.kernels.compress import compress
 from catenaria.mechanics.kernels.scatter import sum_into
 from catenaria.mechanics.state import State
 from catenaria.mechanics.unknowns import Unknowns
@@ -42,9 +44,7 @@ class SparsityPattern:
     @classmethod
     def of(cls, rows: IntArray, columns: IntArray, size: int) -> SparsityPattern:
         """Sort the entries by column and row and give equal ones the same place."""
-        keys, place = np.unique(columns * size + rows, return_inverse=True)
-        indptr = np.searchsorted(keys, np.arange(size + 1) * size)
-        return cls(place.astype(np.int64), (keys % size).astype(np.int32), indptr.astype(np.int32))
+        return cls(*compress(rows, columns, size))
 
 
 @dataclass(frozen=True)
@@ -70,7 +70,7 @@ class System:
 
     def __post_init__(self) -> None:
         for contribution in self.contributions:
-            if not isinstance(contribution, Contribution):  # pyright: ignore[reportUnnecessaryIsInstance]
+            if not offers(type(contribution), Contribution):
                 raise InconsistentInputError(f"{type(contribution).__name__} is not a Contribution")
 
     @property
@@ -122,4 +122,5 @@ class System:
 
     @cached_property
     def _sliders(self) -> tuple[tuple[int, Relocatable], ...]:
-        return tuple((i, part) for i, part in enumerate(self.contributions) if isinstance(part, Relocatable))
+        parts = enumerate(self.contributions)
+        return tuple((i, cast(Relocatable, part)) for i, part in parts if offers(type(part), Relocatable))

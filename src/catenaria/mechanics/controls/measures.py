@@ -214,3 +214,43 @@ class DropperForce:
     def relocate(self, z: FloatArray) -> None:
         """Return None: there is no discrete state."""
         return
+
+
+@dataclass(frozen=True)
+class HungForce:
+    """T_md - G of eq. (23) where the dropper is nothing but a force; see `DropperForce`.
+
+    Parameters
+    ----------
+    force : IntArray, shape (n,)
+        Indices of the vertical forces of the wire on what hangs there, T_md [N].
+    top : WireHeight
+        The height of the wire there.
+    bottom, rhoA, mass, g
+        As in `DropperForce`.
+    """
+
+    force: IntArray
+    top: WireHeight
+    bottom: FloatArray
+    rhoA: float
+    mass: FloatArray
+    g: float
+
+    def value(self, t: float, z: FloatArray) -> FloatArray:
+        """Return T_md - G [N]."""
+        return z[self.force] - self.g * (self.rhoA * (self.top.value(t, z) - self.bottom) + self.mass)
+
+    def columns(self) -> IntArray:
+        """Return force, then what the height depends on."""
+        return np.concatenate((self.force[:, None], self.top.columns()), axis=1)
+
+    def gradient(self, t: float, z: FloatArray) -> FloatArray:
+        """Return 1 and -g rhoA times the gradient of the height."""
+        by_height = -self.g * self.rhoA * self.top.gradient(t, z)
+        return np.concatenate((np.ones((self.force.size, 1)), by_height), axis=1)
+
+    def relocate(self, z: FloatArray) -> HungForce | None:
+        """Return the measure in the elements that fit z, or None."""
+        top = self.top.relocate(z)
+        return None if top is None else replace(self, top=top)

@@ -1,0 +1,52 @@
+"""Compiled sorting of matrix entries into columns, in time proportional to their number."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from catenaria.mechanics.kernels.compile import compiled
+
+IntArray = NDArray[np.int64]
+
+
+@compiled
+def _sorted_by(keys: IntArray, order: IntArray, size: int) -> IntArray:
+    """Return the order sorted by key, a counting sort that keeps the order of equal keys."""
+    start = np.zeros(size + 1, np.int64)
+    for k in range(keys.size):
+        start[keys[k] + 1] += 1
+    for key in range(size):
+        start[key + 1] += start[key]
+    result = np.empty_like(order)
+    for k in range(order.size):
+        key = keys[order[k]]
+        result[start[key]] = order[k]
+        start[key] += 1
+    return result
+
+
+@compiled
+def compress(
+    rows: IntArray, columns: IntArray, size: int
+) -> tuple[IntArray, NDArray[np.int32], NDArray[np.int32]]:
+    """Return the place of each entry, row indices and column pointers of the compressed column form.
+
+    Entries of the same row and column get the same place; rows ascend within a column.
+    """
+    order = _sorted_by(columns, _sorted_by(rows, np.arange(rows.size), size), size)
+    place = np.empty(rows.size, np.int64)
+    indices = np.empty(rows.size, np.int32)
+    indptr = np.zeros(size + 1, np.int32)
+    last_row, last_column, count = -1, -1, 0
+    for k in order:
+        row, column = rows[k], columns[k]
+        if row != last_row or column != last_column:
+            indices[count] = row
+            indptr[column + 1] += 1
+            count += 1
+            last_row, last_column = row, column
+        place[k] = count - 1
+    for column in range(size):
+        indptr[column + 1] += indptr[column]
+    return place, indices[:count].copy(), indptr
