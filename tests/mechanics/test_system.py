@@ -13,8 +13,9 @@ from catenaria.mechanics.elements.cable import CableElements
 from catenaria.mechanics.joints.held_point import HeldPoints
 from catenaria.mechanics.joints.sliding import SlidingJoints
 from catenaria.mechanics.loads.gravity import Gravity, Ramp
+from catenaria.mechanics.sparsity import SparsityPattern
 from catenaria.mechanics.state import State
-from catenaria.mechanics.system import SparsityPattern, System
+from catenaria.mechanics.system import System
 from catenaria.mechanics.unknowns import Kind, UnknownsBuilder
 
 Lay = Callable[..., Chain]

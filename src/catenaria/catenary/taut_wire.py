@@ -58,11 +58,11 @@ class TautWire:
 
     for which slope and curvature are continuous. What the arc gains over its chord is
 
-    .. math:: \int \tfrac12 z'^2 dx
-              = \int \tfrac12 z_\text{string}'^2 dx - \tfrac38 \sum J_k^2 l.
+    .. math:: \int \left(\sqrt{1 + z'^2} - 1\right) dx
+              \approx \int \left(\tfrac12 z_\text{string}'^2 - \tfrac18 z_\text{string}'^4\right) dx
+              - \tfrac38 \sum J_k^2 l.
 
-    Neglected: what one kink does in the boundary layer of the next, exp(-b/l) for a bay b, and the fourth
-    power of the slope.
+    Neglected: what one kink does in the boundary layer of the next, exp(-b/l) for a bay b.
 
     Examples
     --------
@@ -130,6 +130,11 @@ class TautWire:
         """Jump of the slope at every kink, none at the ends; a force of -H times this acts upwards there."""
         return self._bays.slope[1:] - self._bays.slope_ahead[:-1]
 
+    def kink_slopes(self, x: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return the string's slopes before and behind the kinks that are at x."""
+        k = np.searchsorted(self.x, x)
+        return self._bays.slope_ahead[k], self._bays.slope[k + 1]
+
     @property
     def _bending_length(self) -> float:
         return float(np.sqrt(self.EJ / self.H))
@@ -182,5 +187,7 @@ class TautWire:
 
 
 def _parabola(start: FloatArray, end: FloatArray, length: FloatArray) -> FloatArray:
-    """Return the integral of half the square of a slope that varies linearly."""
-    return length * (start * start + start * end + end * end) / 6.0
+    """Return the integral of sqrt(1 + z'^2) - 1 to fourth order, for a slope z' that varies linearly."""
+    square = start * start + start * end + end * end
+    fourth = square * square - start * end * (start + end) ** 2
+    return length * (square / 6.0 - fourth / 40.0)

@@ -43,12 +43,13 @@ class TensionedWire:
     @classmethod
     def of(cls, setup: WireSetup) -> TensionedWire:
         """Return the wire of a setup under its droppers' forces or over the wanted heights."""
-        force, EA, x = setup.tension.force, setup.section.EA, setup.support_x
-        factor, gain = float(stretch(force, EA)), 1.0 - force / EA
-        laid = np.array([x[0] - setup.tail, x[-1] + setup.tail])
-        longer = 0.5 * (factor - 1.0) * (laid[1] - laid[0])
-        shape = _shape(setup, laid + np.array([-longer, longer]))
-        pull = longer - 0.5 * gain * float(shape.arc_excess(shape.x[-1:])[0])
+        EA, laid = setup.section.EA, setup.support_x[[0, -1]] + np.array([-setup.tail, setup.tail])
+        length = laid[1] - laid[0]
+        factor = float(stretch(setup.tension.force, EA))
+        longer = 0.5 * length * (factor - 1.0)
+        shape = _shape(setup, laid + np.array([-longer, longer]), setup.section.rhoA * setup.g / factor)
+        factor, gain = float(stretch(shape.H, EA)), 1.0 - shape.H / EA
+        pull = 0.5 * (length * (factor - 1.0) - gain * float(shape.arc_excess(shape.x[-1:])[0]))
         return cls(shape, laid[0] - pull, factor, gain, pull)
 
     def material(self, x: FloatArray) -> FloatArray:
@@ -64,19 +65,35 @@ class TensionedWire:
         return x
 
 
-def _shape(setup: WireSetup, ends: FloatArray) -> TautWire:
-    """Return heights and slopes of a wire with the given ends."""
-    H, w, EJ = setup.tension.force, setup.section.rhoA * setup.g, setup.section.EJ
-    at = np.concatenate((ends[:1], setup.support_x, ends[1:]))
-    supports = at, np.full_like(at, setup.height)
-    droppers = setup.droppers
+def _shape(setup: WireSetup, ends: FloatArray, w: float) -> TautWire:
+    """Return heights and slopes of a wire with weight w per stretched length; ends as if it were straight."""
+    H, EJ, droppers = setup.tension.force, setup.section.EJ, setup.droppers
     if droppers.up:
-        x = np.concatenate((supports[0], droppers.x))
+        x = np.concatenate((ends[:1], setup.support_x, ends[1:], droppers.x))
+        height = np.concatenate((np.full(setup.support_x.size + 2, setup.height), droppers.target))
         order = np.argsort(x, kind="stable")
-        height = np.concatenate((supports[1], droppers.target))
         return TautWire.held((x[order], height[order]), H, w, EJ)
-    light = TautWire.held(supports, H, w, EJ, (droppers.x, droppers.target))
-    return TautWire.held(supports, H, w, EJ, _with_droppers(setup, light))
+    light = TautWire.held(_held(setup, ends), H, w, EJ, (droppers.x, droppers.target))
+    shorter = 0.5 * light.arc_excess(ends[1:])
+    held = _held(setup, ends + np.concatenate((shorter, -shorter)))
+    return TautWire.held(held, _horizontal(setup, light), w, EJ, _with_droppers(setup, light))
+
+
+def _held(setup: WireSetup, ends: FloatArray) -> Points:
+    """Return places and heights of ends and supports."""
+    x = np.concatenate((ends[:1], setup.support_x, ends[1:]))
+    return x, np.full_like(x, setup.height)
+
+
+def _horizontal(setup: WireSetup, shape: TautWire) -> float:
+    """Return the mean horizontal tension of all spans [N].
+
+    A frictionless support keeps the tension H sqrt(1 + z'^2) and thereby takes H (z'^2 behind it - z'^2 before
+    it)/2 from H.
+    """
+    before, behind = shape.kink_slopes(setup.support_x[:-1])
+    taken = np.cumsum(0.5 * (behind**2 - before**2))
+    return shape.H * (1.0 - float(np.mean(taken)))
 
 
 def _with_droppers(setup: WireSetup, shape: TautWire) -> Points:

@@ -6,7 +6,7 @@ What the parts are (elements, joints, loads, controls) is known to the parts alo
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import cast
 
@@ -16,35 +16,12 @@ from scipy.sparse import csc_matrix
 
 from catenaria.errors import InconsistentInputError
 from catenaria.mechanics.contribution import Contribution, Relocatable, offers
-from catenaria.mechanics.kernels.compress import compress
-from catenaria.mechanics.kernels.scatter import sum_into
+from catenaria.mechanics.sparsity import MergedPattern, SparsityPattern
 from catenaria.mechanics.state import State
 from catenaria.mechanics.unknowns import Unknowns
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
-
-
-@dataclass(frozen=True)
-class SparsityPattern:
-    """Where the entries of all contributions go in one compressed sparse column matrix.
-
-    Attributes
-    ----------
-    place : IntArray, shape (m,)
-        Position in `data` of each contributed entry.
-    indices, indptr : NDArray[np.int32]
-        Row indices and column pointers of the matrix.
-    """
-
-    place: IntArray
-    indices: NDArray[np.int32]
-    indptr: NDArray[np.int32]
-
-    @classmethod
-    def of(cls, rows: IntArray, columns: IntArray, size: int) -> SparsityPattern:
-        """Sort the entries by column and row and give equal ones the same place."""
-        return cls(*compress(rows, columns, size))
 
 
 @dataclass(frozen=True)
@@ -57,6 +34,8 @@ class System:
         The numbering that all contributions use.
     contributions : tuple of Contribution
         Elements, joints, loads and controls.
+    origin : System, optional
+        The system with the same parts but for their discrete state, from which this one comes by `relocate`.
 
     Raises
     ------
@@ -67,6 +46,7 @@ class System:
 
     unknowns: Unknowns
     contributions: tuple[Contribution, ...]
+    origin: System | None = field(default=None, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         for contribution in self.contributions:
@@ -77,17 +57,6 @@ class System:
     def size(self) -> int:
         """Number of unknowns, and of equations."""
         return self.unknowns.size
-
-    @cached_property
-    def sparsity(self) -> SparsityPattern:
-        """Sparsity pattern of the Jacobian, built at its first use."""
-        patterns = [contribution.pattern() for contribution in self.contributions]
-        rows = np.concatenate([rows for rows, _ in patterns])
-        columns = np.concatenate([columns for _, columns in patterns])
-        idle = np.bincount(rows, minlength=self.size) == 0
-        if idle.any():
-            raise InconsistentInputError(f"no contribution has an equation for unknown {np.argmax(idle)}")
-        return SparsityPattern.of(rows, columns, self.size)
 
     def residual(self, state: State) -> FloatArray:
         """Return F(t, z, z', z''), shape (n,): forces [N, N m], constraints [m], control laws [m/s]."""
@@ -106,21 +75,50 @@ class System:
         c1, c2 : float
             Derivatives of z' and z'' by z in the time discretisation, [1/s] and [1/s^2]; 0 for statics.
         """
-        entries = np.concatenate([part.jacobian(state, c1, c2) for part in self.contributions])
+        steady = self.steady_pattern.data([part.jacobian(state, c1, c2) for part in self._steady])
+        sliding = self._sliding_pattern.data([part.jacobian(state, c1, c2) for part in self._sliding])
         pattern = self.sparsity
-        data = sum_into(entries, pattern.place, pattern.indices.size)
+        data = pattern.data(steady, sliding)
         return csc_matrix((data, pattern.indices, pattern.indptr), shape=(self.size, self.size))
+
+    @cached_property
+    def sparsity(self) -> MergedPattern:
+        """Sparsity pattern of the Jacobian, found at its first use."""
+        pattern = MergedPattern.of(self.steady_pattern, self._sliding_pattern)
+        idle = np.bincount(pattern.indices, minlength=self.size) == 0
+        if idle.any():
+            raise InconsistentInputError(f"no contribution has an equation for unknown {np.argmax(idle)}")
+        return pattern
+
+    @cached_property
+    def steady_pattern(self) -> SparsityPattern:
+        """Pattern of all parts without discrete state, which relocated systems share."""
+        if self.origin is not None:
+            return self.origin.steady_pattern
+        return SparsityPattern.of_parts(self._steady, self.size)
+
+    @cached_property
+    def _sliding_pattern(self) -> SparsityPattern:
+        return SparsityPattern.of_parts(self._sliding, self.size)
+
+    @cached_property
+    def _steady(self) -> tuple[Contribution, ...]:
+        return tuple(part for part in self.contributions if not offers(type(part), Relocatable))
+
+    @cached_property
+    def _sliding(self) -> tuple[Contribution, ...]:
+        return tuple(part for part in self.contributions if offers(type(part), Relocatable))
 
     def relocate(self, z: FloatArray) -> System | None:
         """Return the system with its sliding joints in the elements that fit z, or None if they are."""
-        moved = {i: part for i, slider in self._sliders if (part := slider.relocate(z)) is not None}
-        if not moved:
+        parts = tuple(_relocated(part, z) for part in self.contributions)
+        if all(new is old for new, old in zip(parts, self.contributions, strict=True)):
             return None
-        return replace(
-            self, contributions=tuple(moved.get(i, part) for i, part in enumerate(self.contributions))
-        )
+        return System(self.unknowns, parts, self.origin or self)
 
-    @cached_property
-    def _sliders(self) -> tuple[tuple[int, Relocatable], ...]:
-        parts = enumerate(self.contributions)
-        return tuple((i, cast(Relocatable, part)) for i, part in parts if offers(type(part), Relocatable))
+
+def _relocated(part: Contribution, z: FloatArray) -> Contribution:
+    """Return a part with the discrete state that fits z."""
+    if not offers(type(part), Relocatable):
+        return part
+    return cast(Relocatable, part).relocate(z) or part

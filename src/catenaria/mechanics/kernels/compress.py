@@ -50,3 +50,35 @@ def compress(
     for column in range(size):
         indptr[column + 1] += indptr[column]
     return place, indices[:count].copy(), indptr
+
+
+@compiled
+def merge(
+    indices_a: NDArray[np.int32],
+    indptr_a: NDArray[np.int32],
+    indices_b: NDArray[np.int32],
+    indptr_b: NDArray[np.int32],
+) -> tuple[NDArray[np.int32], NDArray[np.int32], IntArray, IntArray]:
+    """Return row indices and column pointers of the union of two patterns, and the places of both."""
+    indices = np.empty(indices_a.size + indices_b.size, np.int32)
+    indptr = np.zeros_like(indptr_a)
+    place_a, place_b = np.empty(indices_a.size, np.int64), np.empty(indices_b.size, np.int64)
+    count = 0
+    for column in range(indptr_a.size - 1):
+        a, b = indptr_a[column], indptr_b[column]
+        while a < indptr_a[column + 1] or b < indptr_b[column + 1]:
+            in_a = a < indptr_a[column + 1]
+            in_b = b < indptr_b[column + 1]
+            if in_a and in_b:
+                in_a, in_b = indices_a[a] <= indices_b[b], indices_b[b] <= indices_a[a]
+            if in_a:
+                indices[count] = indices_a[a]
+                place_a[a] = count
+                a += 1
+            if in_b:
+                indices[count] = indices_b[b]
+                place_b[b] = count
+                b += 1
+            count += 1
+        indptr[column + 1] = count
+    return indices[:count].copy(), indptr, place_a, place_b

@@ -8,11 +8,11 @@ from typing import Any, cast
 import numpy as np
 
 from catenaria.mechanics.kernels.cable import add_cable_forces, cable_energies, cable_stiffness
-from catenaria.mechanics.kernels.compress import compress
+from catenaria.mechanics.kernels.compress import compress, merge
 from catenaria.mechanics.kernels.points import chain_points
 from catenaria.mechanics.kernels.scatter import sum_into
 
-_KERNELS = (add_cable_forces, cable_energies, cable_stiffness, chain_points, compress, sum_into)
+_KERNELS = (add_cable_forces, cable_energies, cable_stiffness, chain_points, compress, merge, sum_into)
 
 
 def need_compiling() -> bool:
@@ -37,5 +37,6 @@ def warm_up() -> None:
     cable_energies(z, dofs, one, one, one, B, B, one)
     first = np.zeros(1, dtype=np.int64)
     chain_points(z, dofs.reshape(2, 6), np.array([0.0, 1.0]), 0.5 * one, first)
-    compress(first, first, 1)
+    _, indices, indptr = compress(first, first, 1)
+    merge(indices, indptr, indices, indptr)
     sum_into(one, first, 1)
