@@ -127,8 +127,12 @@ class TautWire:
 
     @cached_property
     def jump(self) -> FloatArray:
-        """Jump of the slope at every kink, none at the ends; a force of -H times this acts upwards there."""
+        """Jump of the slope at every kink, none at the ends."""
         return self._bays.slope[1:] - self._bays.slope_ahead[:-1]
+
+    def force(self, x: FloatArray) -> FloatArray:
+        """Return the forces that hold the wire at the kinks that are at x [N], positive upwards."""
+        return -self.H * self.jump[np.searchsorted(self.x, x)]
 
     def kink_slopes(self, x: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the string's slopes before and behind the kinks that are at x."""

@@ -39,7 +39,7 @@ def guess_wire(hung: HungWire, z: FloatArray) -> None:
 
 def dropper_forces(hung: HungWire) -> FloatArray:
     """Return how much each dropper pulls at the wire, upwards at a contact wire, downwards at a messenger."""
-    return -_upwards(hung) * _kink_forces(hung, hung.setup.droppers.x)
+    return _upwards(hung) * hung.tensioned.shape.force(hung.setup.droppers.x)
 
 
 def _upwards(hung: HungWire) -> float:
@@ -76,15 +76,9 @@ def _end_forces(hung: HungWire) -> FloatArray:
 
 def _support_forces(hung: HungWire) -> FloatArray:
     """Return the forces of the wire on its supports, which are normal to it, shape (m, 3)."""
-    x = hung.setup.support_x
-    force, slope = _kink_forces(hung, x), hung.tensioned.shape.slope(x)
+    x, shape = hung.setup.support_x, hung.tensioned.shape
+    force, slope = -shape.force(x), shape.slope(x)
     return np.column_stack((-force * slope, np.zeros_like(force), force))
-
-
-def _kink_forces(hung: HungWire, x: FloatArray) -> FloatArray:
-    """Return H J, the force of the wire on what kinks it at x, positive upwards."""
-    shape = hung.tensioned.shape
-    return shape.H * shape.jump[np.searchsorted(shape.x, x)]
 
 
 def _place_droppers(model: WireModel, z: FloatArray) -> None:

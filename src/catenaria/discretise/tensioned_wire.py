@@ -97,7 +97,7 @@ def _horizontal(setup: WireSetup, shape: TautWire) -> float:
 
 
 def _with_droppers(setup: WireSetup, shape: TautWire) -> Points:
-    """Return the loads of the messenger: T_cd and the weight of droppers that end at that shape, eq. (23)."""
+    """Return the loads of the messenger: T_cd and the weight of droppers up to that shape, eq. (23)."""
     droppers = setup.droppers
     length = shape.height(droppers.x) - droppers.foot_height
     weight = setup.g * (droppers.section.rhoA * length + droppers.clamps_mass)
