@@ -58,8 +58,40 @@ class InconsistentInputError(CatenariaError):
     """Arguments contradict each other or the physics (a wrong count, a shape, a negative length)."""
 
 
+class SingularError(InconsistentInputError):
+    """What is prescribed leaves a motion free, so that no equilibrium is determined.
+
+    Parameters
+    ----------
+    reason : str
+        What can move, and what does not hold it.
+    advice : str
+        What to try.
+    partial : object, optional
+        The free motion.
+    """
+
+    def __init__(self, reason: str, advice: str, partial: object | None = None) -> None:
+        self.reason = reason
+        self.advice = advice
+        self.partial = partial
+        super().__init__(f"{reason}. Try: {advice}")
+
+
 class InfeasibleError(CatenariaError):
-    """No equilibrium meets the demands, for example because a dropper would be in compression."""
+    """No equilibrium meets the demands, for example because a dropper would be in compression.
+
+    Parameters
+    ----------
+    message : str
+        Which demand cannot be met, and what would help.
+    partial : object, optional
+        What had been computed until then.
+    """
+
+    def __init__(self, message: str, partial: object | None = None) -> None:
+        self.partial = partial
+        super().__init__(message)
 
 
 class NotConvergedError(CatenariaError):

@@ -33,6 +33,7 @@ def small_result(droppers: int) -> Any:
     ]
     return SimpleNamespace(
         audit=SimpleNamespace(passed=True, findings=(), lines=lambda: ("Audit of equilibrium: passed.",) * 3),
+        rebuilt=SimpleNamespace(findings=lambda: (), lines=lambda: ("Rebuilt: comes back.",)),
         stop_reason="contact wire: at rest; messenger wire: at rest",
         droppers=SimpleNamespace(
             x=4.0 + 9.5 * n,
@@ -69,8 +70,8 @@ class FakeWorkflow:
     solved: list[dict[str, Any]] = field(default_factory=list[dict[str, Any]])
     written: list[tuple[Path, bool]] = field(default_factory=list[tuple[Path, bool]])
 
-    def solve(self, line: Path, method: str, start: Any, progress: Listener) -> Any:
-        self.solved.append({"line": line, "method": method, "start": start})
+    def solve(self, line: Path, method: str, start: Any, progress: Listener, rebuild: str, mesh: Any) -> Any:
+        self.solved.append({"line": line, "method": method, "start": start, "rebuild": rebuild, "mesh": mesh})
         progress(Progress("compiling", 1, 3))
         for step, elapsed in ((1, 0.1), (2, 3.0), (3, 10.2), (4, 10.3)):
             progress(
@@ -81,6 +82,7 @@ class FakeWorkflow:
         if self.solve_failure is not None:
             raise self.solve_failure
         progress(Progress("lengths", 3, 3, elapsed=11.0))
+        progress(Progress("rebuild", 3, 3, elapsed=11.1))
         return self.result
 
     def write(self, result: Any, folder: Path, figures: bool = True) -> tuple[Path, ...]:

@@ -20,6 +20,8 @@ from catenaria.errors import (
 )
 from catenaria.workflow import Progress
 
+DEFAULTS = {"line": Path("a.yaml"), "method": "direct", "start": None, "rebuild": "static", "mesh": None}
+
 
 def run(*arguments: str) -> Any:
     return CliRunner().invoke(app, ["solve", *arguments])
@@ -28,12 +30,14 @@ def run(*arguments: str) -> Any:
 def test_a_solved_line_is_written_and_summarised(workflow: Any) -> None:
     outcome = run("lines/three_span.yaml")
     assert (outcome.exit_code, outcome.stderr) == (0, "")
-    assert workflow.solved == [{"line": Path("lines/three_span.yaml"), "method": "direct", "start": None}]
+    assert workflow.solved == [DEFAULTS | {"line": Path("lines/three_span.yaml")}]
     assert workflow.written == [(Path("results/three_span"), True)]
     for text in (
         "Compiling kernels: on the first run only",
         "Step 1 of 3: contact wire",
         "Step 3 of 3: lengths",
+        "Rebuilding the line from the found lengths",
+        "Rebuilt: comes back.",
         "1.3790",
         "61.73",
         "15021.5",
@@ -57,10 +61,41 @@ def test_without_a_terminal_progress_is_a_few_lines(workflow: Any) -> None:
 
 def test_options_reach_the_workflow(workflow: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("catenaria.results.load_result", lambda path: f"result of {path}")
-    outcome = run("a.yaml", "--method", "direct", "--out", "here", "--start", "before", "--no-figures")
+    options = ("--method", "dynamic", "--out", "here", "--start", "before", "--rebuild", "none")
+    outcome = run("a.yaml", *options, "--no-figures")
     assert outcome.exit_code == 0
-    assert workflow.solved == [{"line": Path("a.yaml"), "method": "direct", "start": "result of before"}]
+    changed = {"method": "dynamic", "start": "result of before", "rebuild": "none"}
+    assert workflow.solved == [DEFAULTS | changed]
     assert workflow.written == [(Path("here"), False)]
+
+
+def test_mesh_options_reach_the_workflow_as_a_mesh(workflow: Any) -> None:
+    outcome = run("a.yaml", "--mesh", "refine=2", "--mesh", "largest_element=1.2m")
+    assert outcome.exit_code == 0
+    (call,) = workflow.solved
+    assert call["mesh"].model_dump(exclude_unset=True) == {"refine": 2, "largest_element": 1.2}
+
+
+def test_a_wrong_mesh_option_is_bad_input(workflow: Any) -> None:
+    outcome = run("a.yaml", "--mesh", "refine=0", "--mesh", "largest_element=2 kg")
+    assert (outcome.exit_code, workflow.solved, workflow.written) == (2, [], [])
+    second, first = outcome.stderr.splitlines()  # in the order of the fields
+    assert first == "--mesh: refine: found 0; allowed: 1 or more"
+    assert second.startswith("--mesh: largest_element: found ")
+
+
+@pytest.mark.parametrize(("part", "said"), [("audit", "The audit failed"), ("rebuilt", "does not come back")])
+def test_a_result_that_cannot_be_trusted_is_not_written(workflow: Any, part: str, said: str) -> None:
+    finding = "height off by 0.45 mm at dropper 11"
+    distrust = (
+        {"findings": (finding,), "passed": False} if part == "audit" else {"findings": lambda: (finding,)}
+    )
+    getattr(workflow.result, part).__dict__.update(distrust)
+    outcome = run("a.yaml")
+    assert (outcome.exit_code, workflow.written) == (1, [])
+    assert finding in outcome.stderr.splitlines()
+    assert said in outcome.stderr
+    assert outcome.stderr.endswith("so nothing was written.\n")
 
 
 def test_a_long_schedule_is_cut_short(workflow: Any) -> None:
@@ -173,7 +208,7 @@ def test_a_place_that_cannot_be_written_is_refused_before_solving(workflow: Any)
 def test_interrupting_a_method_without_time_says_nothing_about_time(
     workflow: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def interrupted(line: Path, method: str, start: Any, progress: Any) -> None:
+    def interrupted(line: Path, method: str, start: Any, progress: Any, rebuild: str, mesh: Any) -> None:
         progress(Progress("messenger wire", 2, 3, elapsed=0.1))
         progress(Progress("messenger wire", 2, 3, elapsed=20.0))
         raise KeyboardInterrupt

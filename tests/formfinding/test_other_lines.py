@@ -310,16 +310,6 @@ def test_unstressed_length_has_the_stretch_of_the_mean_force() -> None:
     assert np.abs(inner - droppers.force_bottom).min() > 0.5
 
 
-def test_the_mirrored_line_has_the_mirrored_form() -> None:
-    there = solved("unequal spans", "direct")[1].droppers
-    spans = (span(L, tuple(L - x for x in reversed(positions))) for L, positions in reversed(UNEQUAL))
-    ends = {"contact_wire.tension.at": "start", "messenger_wire.tension.at": "start"}
-    back = solve(described(of_spans(*spans) | ends)).droppers
-    for name in ("length", "force_bottom", "force_top", "height", "messenger_height", "unstressed_length"):
-        np.testing.assert_allclose(getattr(back, name)[::-1], getattr(there, name), atol=1e-6, err_msg=name)
-    assert np.abs(back.length - there.length).max() > 0.05
-
-
 def test_the_tension_may_be_measured_at_either_end() -> None:
     """On a symmetric line it is the same."""
     start = solve(described({"contact_wire.tension.at": "start", "messenger_wire.tension.at": "start"}))

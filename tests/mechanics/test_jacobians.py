@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 import catenaria
 from catenaria.mechanics.chain import Chain, Section
 from catenaria.mechanics.contribution import Contribution, Relocatable
+from catenaria.mechanics.controls.balance import ForceBalance
 from catenaria.mechanics.controls.control import Controls, Measure
 from catenaria.mechanics.controls.given import Given
 from catenaria.mechanics.controls.measures import (
@@ -29,6 +30,7 @@ from catenaria.mechanics.controls.measures import (
     StrainTension,
     WireHeight,
 )
+from catenaria.mechanics.controls.pull import Pull
 from catenaria.mechanics.controls.target import Targets
 from catenaria.mechanics.controls.velocity_law import VelocityLaw
 from catenaria.mechanics.elements.cable import CableElements
@@ -144,6 +146,11 @@ def height() -> Height:
     return Height(OTHER[:, 2])
 
 
+def force_balance() -> ForceBalance:
+    sign, mass = np.array([[1.0, -1.0], [-1.0, -1.0]]), np.array([0.3, 0.5])
+    return ForceBalance(LA[:4].reshape(2, 2), sign, OTHER[:, [2, 1]], 0.2 * mass, mass, 9.81, RAMP)
+
+
 def dropper() -> DropperForce:
     return DropperForce(LA[[2, 5]], OTHER[:, 2], np.array([-0.4, 0.3]), 0.2, np.array([0.3, 0.5]), 9.81, RAMP)
 
@@ -203,6 +210,8 @@ MEASURES: dict[str, Callable[[], Measure]] = {
     "WireHeight": lambda: WireHeight(WIRE, S, IN_ELEMENT),
     "Height": height,
     "DropperForce": dropper,
+    "ForceBalance": force_balance,
+    "Pull": lambda: Pull(LA[:6].reshape(2, 3), UNIT),
     "HungForce": hung_force,
 }
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.sparse import csc_array
 
-from catenaria.errors import NotConvergedError
+from catenaria.errors import InconsistentInputError, NotConvergedError
 from catenaria.solvers.newton import NewtonOptions, Root, solve_newton
 
 
@@ -122,3 +122,19 @@ def test_iterations_are_limited():
     partial = caught.value.partial
     assert isinstance(partial, Root)
     assert partial.corrections.size == 3
+
+
+def test_the_first_factors_are_shown_and_may_be_refused():
+    """Only the first ones, before a step is made."""
+    problem, seen = Broyden(20, 1.0), []
+    solve_newton(problem, -np.ones(20), inspect=lambda matrix, lu: seen.append((matrix, lu)))
+    (matrix, lu) = seen[0]
+    assert len(seen) == 1
+    np.testing.assert_array_equal(matrix.toarray(), problem.jacobian(-np.ones(20)).toarray())
+    np.testing.assert_allclose(matrix @ lu.solve(np.ones(20)), np.ones(20))
+
+    def refuse(matrix, lu):
+        raise InconsistentInputError("not this one")
+
+    with pytest.raises(InconsistentInputError, match="not this one"):
+        solve_newton(problem, -np.ones(20), inspect=refuse)

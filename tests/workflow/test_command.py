@@ -59,6 +59,34 @@ def test_a_line_is_solved_dynamically_and_taken_up_again(
     assert sum(work.steps for work in second.counters) < sum(work.steps for work in first.counters)
 
 
+def test_another_mesh_and_rebuild_are_recorded(command: Start, small_file: Path, tmp_path: Path) -> None:
+    options = ("--mesh", "refine=2", "--mesh", "largest_element=1.2m", "--rebuild", "relaxation")
+    code, out, err = run(command, small_file, *options, "--no-figures")
+    assert (code, err) == (0, "")
+    assert "Rebuilt from the found lengths (relaxation, " in out
+    assert "it comes back: height 0.00" in out
+    found = load_result(tmp_path / "results" / "small")
+    mesh = found.inputs["solver"]["mesh"]
+    assert (mesh["refine"], mesh["largest_element"]) == (2, 1.2)
+    assert (found.rebuilt.way, found.rebuilt.passed) == ("relaxation", True)
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        (("--mesh", "refine=0"), "--mesh: refine: found 0; allowed: 1 or more"),
+        (("--rebuild", "dynamic"), "there is no rebuild 'dynamic'"),
+    ],
+)
+def test_a_wrong_option_is_bad_input(
+    command: Start, small_file: Path, tmp_path: Path, options: tuple[str, ...], said: str
+) -> None:
+    code, _, err = run(command, small_file, *options)
+    assert code == 2
+    assert said in err
+    assert list(tmp_path.iterdir()) == []
+
+
 def with_change(path: Path, change: dict[str, Any], folder: Path) -> Path:
     tree = json.loads(path.read_text(encoding="utf-8")) | change
     changed = folder / "changed.json"

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from typing import Any
 
+import numpy as np
 import pytest
 
 from catenaria.errors import InfeasibleError
@@ -41,6 +43,8 @@ CASES: dict[str, tuple[Change, str]] = {
         r"cut to nothing: 4 \(-0\.01.* m\)\. .*clamp heights",
     ),
 }
+THREE = spans(LEVEL)["spans"] + spans(DEEP)["spans"] * 2
+ENDS = ({"contact_wire": {"height": 0.0}, "messenger_wire": {"height": 1.5}},) * 4
 FEASIBLE: dict[str, Change] = {
     "pulled": spans((0.0, 0.0, 0.0, -0.02, 0.0, 0.0, 0.0)),
     "taut enough": spans(LEVEL) | {"messenger_wire.tension.force": 6000.0},
@@ -61,3 +65,21 @@ def test_what_can_just_be_built_is_not_refused(vary: Vary, change: Change) -> No
     assert droppers.cut_length.min() > 0.0
     assert droppers.force_bottom.min() > 0.0
     assert min(droppers.cut_length.min(), droppers.force_bottom.min() / 200.0) < 0.3  # near the limit
+
+
+def test_spans_are_named_and_the_error_carries_what_was_found(vary: Vary) -> None:
+    """The tension of the advice would do: 10 % below it the line is found, 10 % above it is refused."""
+    line = {"spans": THREE, "supports": ENDS}
+    wanted = r"compression: 4 \(-10.* N\) in span 2; 4 \(-10.* N\) in span 3\. .* about ([\d.]+) kN"
+    with pytest.raises(InfeasibleError, match=wanted) as caught:
+        solve(vary(line))
+    partial = caught.value.partial
+    assert isinstance(partial, tuple)
+    assert partial[0].model.setup.name == "contact wire"
+    assert np.isfinite(partial[0].z).all()
+    found = re.search(wanted, str(caught.value))
+    assert found is not None
+    limit = 1e3 * float(found[1])
+    assert solve(vary(line | {"contact_wire.tension.force": 0.9 * limit})).droppers.force_bottom.min() > 0.0
+    with pytest.raises(InfeasibleError):
+        solve(vary(line | {"contact_wire.tension.force": 1.1 * limit}))

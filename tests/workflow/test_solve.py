@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from importlib import import_module
 from itertools import groupby
 from pathlib import Path
 from typing import Any
@@ -10,14 +11,14 @@ from typing import Any
 import numpy as np
 import pytest
 
-from catenaria.errors import InconsistentInputError, LineFileError, UnsupportedError
-from catenaria.line import Line
-from catenaria.results import FormResult
-from catenaria.workflow import METHODS, Progress, solve
+from catenaria.errors import InconsistentInputError, LineFileError, NotConvergedError, UnsupportedError
+from catenaria.line import Line, Mesh
+from catenaria.results import NOT_REBUILT, FormResult
+from catenaria.workflow import METHODS, Progress, Rebuild, solve
 
 Vary = Callable[[dict[str, Any]], Line]
 
-STAGES = ["contact wire", "messenger wire", "lengths"]
+STAGES = ["contact wire", "messenger wire", "lengths", "rebuild"]
 
 
 def test_a_file_and_its_line_give_the_same(small_file: Path, small_result: FormResult) -> None:
@@ -45,6 +46,46 @@ def test_an_unknown_method_is_refused_with_those_there_are(small: Line, method: 
         solve(small, method=method)
     assert repr(method) in str(refusal.value)
     assert all(name in str(refusal.value) for name in METHODS)
+
+
+@pytest.mark.parametrize("rebuild", ["static", "relaxation"])
+@pytest.mark.parametrize("method", METHODS)
+def test_every_result_is_rebuilt_as_asked(small: Line, method: str, rebuild: Rebuild) -> None:
+    rebuilt = solve(small, method=method, rebuild=rebuild).rebuilt
+    assert (rebuilt.way, rebuilt.passed) == (rebuild, True)
+    assert rebuilt.height.value.shape == (2,)
+
+
+def test_the_rebuild_is_static_or_left_out(small: Line, small_result: FormResult) -> None:
+    assert small_result.rebuilt.way == "static"
+    assert solve(small, rebuild="none").rebuilt == NOT_REBUILT
+
+
+def test_an_unknown_rebuild_is_refused_with_those_there_are(small: Line) -> None:
+    wrong: Any = "dynamic"
+    with pytest.raises(UnsupportedError, match="no rebuild 'dynamic'; there is static, relaxation, none"):
+        solve(small, rebuild=wrong)
+
+
+def test_a_rebuild_that_fails_hands_the_result_on(small: Line, monkeypatch: pytest.MonkeyPatch) -> None:
+    def failing(line: Line, result: FormResult, way: str) -> None:
+        raise NotConvergedError("the rebuilt line: lost", "none")
+
+    monkeypatch.setattr(import_module("catenaria.workflow.solve"), "rebuild_line", failing)
+    with pytest.raises(NotConvergedError, match="the rebuilt line: lost") as failure:
+        solve(small)
+    assert isinstance(failure.value.partial, FormResult)
+    assert failure.value.partial.audit.passed
+    assert failure.value.partial.rebuilt == NOT_REBUILT
+
+
+def test_fields_of_a_mesh_replace_those_of_the_line(small: Line, small_result: FormResult) -> None:
+    finer = solve(small, mesh=Mesh(refine=2))
+    before, after = (result.inputs["solver"]["mesh"] for result in (small_result, finer))
+    assert after == before | {"refine": 2}
+    assert finer.counters[0].unknowns > 1.5 * small_result.counters[0].unknowns
+    assert np.abs(finer.droppers.length - small_result.droppers.length).max() < 0.1e-3
+    assert solve(small, mesh=Mesh()).inputs == small_result.inputs
 
 
 def test_an_unknown_method_is_refused_before_the_file_is_read(tmp_path: Path) -> None:
@@ -79,11 +120,11 @@ def stages(heard: list[Progress]) -> list[tuple[str, int]]:
 def test_stages_are_told_in_order(small: Line, method: str) -> None:
     heard: list[Progress] = []
     solve(small, method=method, progress=heard.append)
-    assert stages(heard)[:3] == [(name, number) for number, name in enumerate(STAGES, start=1)]
+    assert stages(heard) == list(zip(STAGES, (1, 2, 3, 3), strict=True))
     assert len({progress.stage_count for progress in heard}) == 1
     elapsed = [progress.elapsed for progress in heard if progress.stage != "compiling"]
     assert elapsed == sorted(elapsed)
-    assert stages(heard[::-1])[:3] != stages(heard)[:3]
+    assert stages(heard[::-1]) != stages(heard)
 
 
 def test_the_dynamic_method_tells_every_step(small: Line) -> None:

@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from catenaria.errors import InfeasibleError
+
 FloatArray = NDArray[np.float64]
 
 
@@ -25,7 +27,7 @@ def stretch(force: float | FloatArray, EA: float) -> FloatArray:
 
     Raises
     ------
-    ValueError
+    InfeasibleError
         If the compression exceeds what a bar of this law can carry, EA/sqrt(27).
 
     Notes
@@ -42,7 +44,11 @@ def stretch(force: float | FloatArray, EA: float) -> FloatArray:
     """
     c = np.asarray(3.0 * np.sqrt(3.0) * np.asarray(force, dtype=np.float64) / EA)
     if np.any(c < -1.0):
-        raise ValueError("the compression exceeds what a bar with Green strain can carry")
+        pushed, most = -float(np.min(force)), EA / np.sqrt(27.0)
+        raise InfeasibleError(
+            f"a compression of {pushed:.4g} N exceeds the {most:.4g} N that a bar with Green strain can "
+            "carry; demands that pull at it would help"
+        )
     inner = np.cos(np.arccos(np.minimum(c, 1.0)) / 3.0)
     outer = np.cosh(np.arccosh(np.maximum(c, 1.0)) / 3.0)
     return 2.0 / np.sqrt(3.0) * np.where(c <= 1.0, inner, outer)

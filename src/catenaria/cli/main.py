@@ -9,6 +9,7 @@ import typer
 from catenaria import __version__
 from catenaria.cli.describe import check, schema
 from catenaria.cli.solve import solve
+from catenaria.cli.validate import validate
 
 app = typer.Typer(
     name="catenaria",
@@ -20,6 +21,7 @@ app = typer.Typer(
 app.command()(solve)
 app.command()(check)
 app.command()(schema)
+app.command()(validate)
 
 
 def _show_version(wanted: bool) -> None:

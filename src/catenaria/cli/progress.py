@@ -90,6 +90,8 @@ def headline(progress: Progress) -> str:
     """Say which stage is running."""
     if progress.stage == "compiling":
         return "Compiling kernels: on the first run only, up to a minute"
+    if progress.stage == "rebuild":
+        return "Rebuilding the line from the found lengths"
     return f"Step {progress.stage_number} of {progress.stage_count}: {progress.stage}"
 
 

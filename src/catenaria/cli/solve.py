@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, NoReturn
+from typing import TYPE_CHECKING, Annotated, NamedTuple, NoReturn, cast
 
 import typer
 from rich.console import Console
@@ -15,7 +15,7 @@ from catenaria.cli.summary import show_result
 
 if TYPE_CHECKING:
     from catenaria.results import FormResult
-    from catenaria.workflow import Progress
+    from catenaria.workflow import Progress, Rebuild
 
 
 def solve(
@@ -29,6 +29,13 @@ def solve(
         Path | None,
         typer.Option(help="Begin from an earlier result (folder or result.json) of the same line."),
     ] = None,
+    rebuild: Annotated[
+        str, typer.Option(help="Build the line from the found lengths: static, relaxation or none.")
+    ] = "static",
+    mesh: Annotated[
+        list[str] | None,
+        typer.Option(metavar="KEY=VALUE", help="A field of solver.mesh of LINE; may be given several times."),
+    ] = None,
     no_figures: Annotated[bool, typer.Option("--no-figures", help="Write no figures.")] = False,
 ) -> None:
     """Find the form of a line and write it to a folder.
@@ -38,21 +45,26 @@ def solve(
     Example:
 
       catenaria solve examples/yang2017_three_span.yaml --method dynamic
+      catenaria solve examples/yang2017_three_span.yaml --mesh refine=2 --mesh largest_element=1.2m
 
     The folder then holds droppers.csv (the dropper schedule), wires.csv, supports.csv, controls.csv,
     counters.csv, configuration.csv, history.csv, figures/, and result.json with result.npz, which --start and
     Python read. The results of an earlier run are replaced as a whole; a folder with files of yours in it is
     refused.
 
-    Exit codes: 0 done and audited, 1 not converged or audit failed, 2 bad input, 130 interrupted. Nothing is
-    written unless it is 0.
+    Before that an audit checks all numbers, and a line that is built from the found lengths must come to
+    rest where it was found: statically, or, with --rebuild relaxation, from a disturbed start and without
+    any matrix, which takes seconds.
+
+    Exit codes: 0 done, audited and rebuilt, 1 not converged or not confirmed by audit and rebuild, 2 bad
+    input, 130 interrupted. Nothing is written unless it is 0.
     """
     folder = Path("results") / line.stem if out is None else out
     console = Console(markup=False, highlight=False, emoji=False)
     began = time.perf_counter()
     with failures_reported():
-        result = _find_form(line, method, start, folder, console)
-        _require_audited(result)
+        result = _find_form(line, _Request(method, start, rebuild, tuple(mesh or ())), folder, console)
+        _require_trusted(result)
         files = _write(result, folder, console, figures=not no_figures)
     show_result(result, console)
     console.print(
@@ -61,18 +73,34 @@ def solve(
     )
 
 
-def _find_form(line: Path, method: str, start: Path | None, folder: Path, console: Console) -> FormResult:
+class _Request(NamedTuple):
+    """How a line shall be solved, as options say."""
+
+    method: str
+    start: Path | None
+    rebuild: str
+    mesh: tuple[str, ...]
+
+
+def _find_form(line: Path, request: _Request, folder: Path, console: Console) -> FormResult:
     display = display_on(console)
     try:
         with display.shown():
             # Imported late: numerical libraries take longer to load than --help may.
             from catenaria import results, workflow
+            from catenaria.line import read_mesh
 
             results.require_replaceable(folder)
-            earlier = None if start is None else results.load_result(start)
-            return workflow.solve(line, method=method, start=earlier, progress=display.update)
+            return workflow.solve(
+                line,
+                method=request.method,
+                start=None if request.start is None else results.load_result(request.start),
+                progress=display.update,
+                rebuild=cast("Rebuild", request.rebuild),  # any other text is refused
+                mesh=read_mesh(request.mesh) if request.mesh else None,
+            )
     except KeyboardInterrupt:
-        _end_interrupted(_whereabouts(display.latest, method))
+        _end_interrupted(_whereabouts(display.latest, request.method))
 
 
 def _whereabouts(latest: Progress | None, method: str) -> str:
@@ -82,13 +110,18 @@ def _whereabouts(latest: Progress | None, method: str) -> str:
     return f"in the stage '{latest.stage}'{simulated}. Nothing was written"
 
 
-def _require_audited(result: FormResult) -> None:
-    """End the command if the audit of the result failed."""
-    if not result.audit.passed:
-        for text in (*result.audit.lines(), *result.audit.findings):
-            complain(text)
-        complain("The audit failed, so nothing was written.")
-        raise typer.Exit(NOT_CONVERGED)
+def _require_trusted(result: FormResult) -> None:
+    """End the command if the audit of the result failed, or the rebuilt line comes to rest elsewhere."""
+    checks = (
+        (result.audit.lines(), result.audit.findings, "The audit failed"),
+        (result.rebuilt.lines(), result.rebuilt.findings(), "The rebuilt line does not come back"),
+    )
+    for lines, findings, what in checks:
+        if findings:
+            for text in (*lines, *findings):
+                complain(text)
+            complain(f"{what}, so nothing was written.")
+            raise typer.Exit(NOT_CONVERGED)
 
 
 def _write(result: FormResult, folder: Path, console: Console, *, figures: bool) -> tuple[Path, ...]:

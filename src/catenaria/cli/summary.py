@@ -22,7 +22,12 @@ def show_result(result: FormResult, console: Console) -> None:
     if hidden > 0:
         console.print(f"  ... and {hidden} more in droppers.csv\n")
     console.print(_wire_table(result))
-    for line in (*_error_lines(result), *_counter_lines(result), *result.audit.lines()):
+    for line in (
+        *_error_lines(result),
+        *_counter_lines(result),
+        *result.audit.lines(),
+        *result.rebuilt.lines(),
+    ):
         console.print(line, soft_wrap=True)
 
 

@@ -115,7 +115,7 @@ def _setup(
             VelocityLaw(law.velocity, law.dead_band, law.saturation),
         ),
         droppers=droppers,
-        grading=Grading(tuple(mesh.fine), mesh.largest_element, mesh.refine),
+        grading=Grading(tuple(mesh.fine), mesh.largest_element, mesh.refine, mesh.even),
         gauss_points=mesh.gauss_points,
         g=line.gravity,
         gravity_ramp=Ramp(dynamic.ramp_time),

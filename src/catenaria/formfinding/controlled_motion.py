@@ -1,10 +1,11 @@
-"""One dynamic step of the method: move a wire model under its controls until it rests, eqs. (18)-(27)."""
+"""One dynamic step of the method: move a model under its controls until it rests, eqs. (18)-(27)."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
 from time import perf_counter
+from typing import Generic, Protocol, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,22 +25,49 @@ Observer = Callable[[Step], None]
 
 _OPEN = 1e-6  # m by which joints may be open at the start
 _ADVICE = (
-    "a larger solver.dynamic.integrator.max_time or max_steps, wider dead bands, a larger ramp_time or "
-    "dropper_force.saturation; a mistaken unit in the line file has the same effect"
+    "a larger max_time or max_steps of the integrator, wider dead bands, a larger ramp_time, a larger "
+    "saturation of dropper forces, damping; a mistaken unit in the file has the same effect"
 )
 _RESOLVED = 0.02  # part of the width of a velocity law by which a control may err in one time step
 _NEGLIGIBLE = 0.05  # part of a dead band that a Newton correction may leave undone
 _LARGEST_FORCE = 1e-2  # N: forces are wanted to a tenth of a newton even with wide bands
+_SOON = 1.0  # s, in which nothing may gather speed at rest
 _CHECK_EVERY = 10  # accepted steps between two looks at the remaining travel, which costs a factorisation
 
 
+class Movable(Protocol):
+    """What can be moved: the wire of one step, or a free structure."""
+
+    @property
+    def name(self) -> str:
+        """Name, for messages."""
+        ...
+
+    @property
+    def system(self) -> System:
+        """The system at its starting configuration."""
+        ...
+
+    @property
+    def ramp_time(self) -> float:
+        """Until when loads and control velocities grow [s]."""
+        ...
+
+    def controls(self, system: System) -> tuple[Controls, ...]:
+        """Return the controls with the discrete state of the given system."""
+        ...
+
+
+Model = TypeVar("Model", bound=Movable)
+
+
 @dataclass(frozen=True)
-class Motion:
+class Motion(Generic[Model]):
     """A finished step.
 
     Attributes
     ----------
-    model : WireModel
+    model : Movable
         What moved.
     system : System
         Its system with the final discrete state.
@@ -49,7 +77,7 @@ class Motion:
         Time it took [s].
     """
 
-    model: WireModel
+    model: Model
     system: System
     solution: Solution
     wall_time: float
@@ -65,8 +93,8 @@ class Motion:
         return self.solution.y[-1]
 
     @property
-    def controls(self) -> tuple[Controls, Controls]:
-        """The tension control and the dropper controls in their final discrete state."""
+    def controls(self) -> tuple[Controls, ...]:
+        """The controls in their final discrete state."""
         return self.model.controls(self.system)
 
 
@@ -88,7 +116,7 @@ def tolerances(model: WireModel, position: float) -> Tolerances:
     tension, droppers = (control.law.e0 for control in model.controls(model.system))
     bands = (tension,) if model.setup.droppers.up else (tension, droppers)
     force = min(_LARGEST_FORCE, _NEGLIGIBLE * min(bands))
-    compliance = min(chain.knots[-1] / chain.section.EA for chain in (model.wire, *model.cables))
+    compliance = min(chain.knots[-1] / chain.section.EA for chain in (model.wire, *model.droppers.chains))
     return Tolerances(position, _parameter_errors(model, position), force * float(compliance), force)
 
 
@@ -103,26 +131,29 @@ def _parameter_errors(model: WireModel, position: float) -> FloatArray:
     stiffness = 2.0 * model.wire.section.EA / model.wire.knots[-1]
     errors[model.pull] = min(position, _RESOLVED * (tension.e1 - tension.e0) / stiffness)
     if model.setup.droppers.up:
-        errors[model.dropper_travel] = min(position, _RESOLVED * (droppers.e1 - droppers.e0))
+        errors[model.droppers.travel] = min(position, _RESOLVED * (droppers.e1 - droppers.e0))
     return errors[model.system.unknowns.where(Kind.PARAMETER)]
 
 
 class _Rest:
     """Stop function of the integrator: looks at speeds, control errors and remaining travel."""
 
-    def __init__(self, model: WireModel, settled: Settled) -> None:
+    def __init__(self, model: Movable, settled: Settled) -> None:
         self._model = model
         self._settled = settled
 
     def __call__(self, step: Step) -> str | None:
         """Return why the motion counts as settled, or None while it does not."""
-        setup, settled = self._model.setup, self._settled
-        if step.t < max(setup.gravity_ramp.duration, setup.control_ramp.duration):
+        settled = self._settled
+        if step.t < self._model.ramp_time:
             return None
         system = system_of(step)
         if largest_speed(system, step.yd) > settled.velocity:
             return None
         controls = self._model.controls(system)
+        if not controls:  # nothing but speed tells a turning point of a free oscillation from rest
+            soon = largest_speed(system, step.yd + _SOON * step.ydd) <= settled.velocity
+            return "at rest, with no acceleration to speak of" if soon else None
         if largest_error(controls, step.t, step.y)[0] <= settled.dead_bands:
             return f"at rest, and every control error is within {settled.dead_bands:g} dead bands"
         if step.number % _CHECK_EVERY == 0:
@@ -141,14 +172,14 @@ def system_of(step: Step) -> System:
 
 
 def move(
-    model: WireModel,
+    model: Model,
     tolerances: Tolerances,
     options: Options,
     settled: Settled,
     max_time: float,
     observers: tuple[Observer, ...] = (),
-) -> Motion:
-    """Integrate a wire model from its starting configuration until it is settled.
+) -> Motion[Model]:
+    """Integrate a model from its starting configuration until it is settled.
 
     Raises
     ------
@@ -164,25 +195,25 @@ def move(
     try:
         solution = integrate(problem, start, max_time, options, observers, _Rest(model, settled))
     except NotConvergedError as error:
-        raise NotConvergedError(f"the {model.setup.name}: {error.reason}", _ADVICE, error.partial) from error
+        raise NotConvergedError(f"the {model.name}: {error.reason}", _ADVICE, error.partial) from error
     except InfeasibleError as error:
-        raise InfeasibleError(f"the {model.setup.name}: {error}") from error
+        raise InfeasibleError(f"the {model.name}: {error}") from error
     final = solution.problem
     if solution.status is not Status.STOPPED or not isinstance(final, MotionProblem):
         raise NotConvergedError(
-            f"the {model.setup.name} is not at rest after {solution.t[-1]:.4g} s of simulated time",
+            f"the {model.name} is not at rest after {solution.t[-1]:.4g} s of simulated time",
             _ADVICE,
             solution,
         )
     return Motion(model, final.system, solution, perf_counter() - begin)
 
 
-def _refuse_inconsistent(model: WireModel, problem: MotionProblem, z: FloatArray) -> None:
+def _refuse_inconsistent(model: Movable, problem: MotionProblem, z: FloatArray) -> None:
     """Refuse a start in which joints are open."""
     rest = np.zeros_like(z)
     gap = np.abs(problem.residual(0.0, z, rest, rest)[problem.constraint])
     if gap.max() > _OPEN:
         raise InconsistentInputError(
-            f"the {model.setup.name} does not fit its joints at the start: one is open by {gap.max():.4g} m. "
+            f"the {model.name} does not fit its joints at the start: one is open by {gap.max():.4g} m. "
             "An earlier result can only start a line with the same supports, droppers and wire lengths"
         )

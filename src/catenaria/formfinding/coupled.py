@@ -6,20 +6,18 @@ droppers are bars with unknown lengths instead of cables with driven ends.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from catenaria.catenary.green_bar import stretch
 from catenaria.discretise.from_line import contact_wire_setup, messenger_wire_setup
-from catenaria.discretise.guess import guess_equilibrium
-from catenaria.discretise.hung_wire import copy_wire
+from catenaria.discretise.guess import guess_wire
 from catenaria.discretise.line_model import LineModel, build_line_model
-from catenaria.discretise.wire_model import build_wire_model
+from catenaria.discretise.tensioned_wire import TensionedWire
 from catenaria.formfinding.static_problem import find_rest
 from catenaria.line import Line
-from catenaria.mechanics.loads.gravity import Ramp
 from catenaria.solvers.newton import Root
 
 FloatArray = NDArray[np.float64]
@@ -74,7 +72,7 @@ def find_coupled_form(line: Line) -> CoupledForm:
 
 
 def guess_line(line: Line, feet: tuple[FloatArray, FloatArray] | None = None) -> tuple[LineModel, FloatArray]:
-    """Return the line and a first guess of its equilibrium: two taut strings with droppers between them.
+    """Return the line and a first guess of its equilibrium: two taut wires with droppers between them.
 
     Parameters
     ----------
@@ -84,18 +82,14 @@ def guess_line(line: Line, feet: tuple[FloatArray, FloatArray] | None = None) ->
         Forces of the droppers on the contact wire [N] and its heights there [m], if they are known: the guess
         and the messenger's mesh follow from them.
     """
-    contact = replace(contact_wire_setup(line), gravity_ramp=Ramp(0.0))
-    lower = build_wire_model(contact)
-    below = guess_equilibrium(lower)
-    force, height = feet or (-below[lower.droppers.clamp_force[:, 2]], contact.droppers.target)
-    messenger = replace(messenger_wire_setup(line, force, height), gravity_ramp=Ramp(0.0))
-    upper = build_wire_model(messenger)
-    above = guess_equilibrium(upper)
-    model = build_line_model(contact, messenger)
+    contact = contact_wire_setup(line)
+    droppers = contact.droppers
+    force, height = feet or (TensionedWire.of(contact).shape.force(droppers.x), droppers.target)
+    model = build_line_model(contact, messenger_wire_setup(line, force, height))
     z = model.unknowns.start.copy()
-    copy_wire(model.contact, lower, below, z)
-    copy_wire(model.messenger, upper, above, z)
-    z[model.length] = _distance(model, z) / stretch(force, contact.droppers.section.EA)
+    guess_wire(model.contact, z)
+    guess_wire(model.messenger, z)
+    z[model.length] = _distance(model, z) / stretch(force, droppers.section.EA)
     return model, z
 
 

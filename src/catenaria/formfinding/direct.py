@@ -17,15 +17,21 @@ from catenaria.discretise.guess import guess_equilibrium
 from catenaria.discretise.restart import stage_of, start_from
 from catenaria.discretise.wire_model import WireModel, build_wire_model
 from catenaria.discretise.wire_setup import WireSetup
-from catenaria.errors import NotConvergedError
+from catenaria.errors import InconsistentInputError, InfeasibleError, NotConvergedError
+from catenaria.formfinding.free_motion import Names
 from catenaria.formfinding.progress import Listener, Progress
-from catenaria.formfinding.static_problem import find_rest
-from catenaria.formfinding.third_step import Rest, clamp_height, foot_force, gather, refuse_compression
+from catenaria.formfinding.slacken import slacken
+from catenaria.formfinding.static_problem import find_rest, statics
+from catenaria.formfinding.third_step import (
+    Rest,
+    clamp_height,
+    dropper_names,
+    foot_force,
+    gather,
+    refuse_compression,
+)
 from catenaria.line import Line
-from catenaria.mechanics.controls.control import Controls
-from catenaria.mechanics.controls.target import Targets
 from catenaria.mechanics.loads.gravity import Ramp
-from catenaria.mechanics.system import System
 from catenaria.results.form import Counters, FormResult
 from catenaria.solvers.newton import Root
 
@@ -63,55 +69,106 @@ class Direct:
         Raises
         ------
         NotConvergedError
-            If Newton's method does not converge.
+            If neither Newton's method nor load stepping finds a wire at rest; the error says how far it came.
         InfeasibleError
             If the schedule cannot be built.
+        SingularError
+            If what is prescribed leaves a motion free.
         """
         begin = perf_counter()
         self._tell("contact wire", 1, begin)
-        contact, contact_work = _solve(contact_wire_setup(line), start)
-        force = foot_force(contact)
-        refuse_compression(force)
+        names = dropper_names(line)
+        contact = _solve(contact_wire_setup(line), start, names)
+        force = foot_force(contact.rest)
+        refuse_compression(line, force, contact.rest)
         self._tell("messenger wire", 2, begin)
-        messenger_setup = messenger_wire_setup(line, force, clamp_height(contact))
-        messenger, messenger_work = _solve(messenger_setup, start)
+        messenger = _solve(messenger_wire_setup(line, force, clamp_height(contact.rest)), start, names)
         self._tell("lengths", 3, begin)
-        reason = f"Newton's method converged in {contact_work.steps} and {messenger_work.steps} iterations"
-        return gather(line, "direct", reason, contact, messenger, (contact_work, messenger_work))
+        work = contact.work, messenger.work
+        reason = f"Newton's method converged in {work[0].steps} and {work[1].steps} iterations"
+        return gather(
+            line, "direct", reason + contact.how + messenger.how, contact.rest, messenger.rest, work
+        )
 
     def _tell(self, stage: str, number: int, begin: float) -> None:
         if self.listener is not None:
             self.listener(Progress(stage, number, 3, elapsed=perf_counter() - begin))
 
 
-def _solve(setup: WireSetup, start: FormResult | None) -> tuple[Rest, Counters]:
+@dataclass(frozen=True)
+class _Found:
+    """Where a wire is at rest, the work, and how it was found."""
+
+    rest: Rest
+    work: Counters
+    how: str
+
+
+def _solve(setup: WireSetup, start: FormResult | None, names: tuple[str, ...]) -> _Found:
     begin = perf_counter()
-    model = build_wire_model(replace(setup, gravity_ramp=Ramp(0.0)))
+    try:
+        model = build_wire_model(replace(setup, gravity_ramp=Ramp(0.0)))
+    except InconsistentInputError as error:
+        raise InconsistentInputError(
+            f"the {setup.name}: {error}, as slack as its tension of {setup.tension.force:.4g} N makes it; a "
+            f"tail longer than {setup.tail:g} m or more tension would help"
+        ) from error
     if start is None:
         z = guess_equilibrium(model)
     else:
         z = start_from(model, stage_of(start, setup.name)).system.unknowns.start
-    root = _root(model, z)
-    iterations = root.corrections.size
+    z, iterations, how = _find(model, z, names)
     wall = perf_counter() - begin
     work = Counters(setup.name, 0.0, wall, iterations, 0, 0, 2 * iterations, iterations, iterations, z.size)
     tension, droppers = _BAND[0], _BAND[1] if setup.droppers.up else _BAND[0]
-    return Rest(model, 0.0, root.y, (tension, droppers)), work
+    return _Found(Rest(model, 0.0, z, (tension, droppers)), work, how)
 
 
-def _root(model: WireModel, z: FloatArray) -> Root:
+def _find(model: WireModel, z: FloatArray, names: tuple[str, ...]) -> tuple[FloatArray, int, str]:
+    """Return where a wire is at rest, the iterations, and how it was found."""
     try:
-        return find_rest(statics(model.system, z), z)
+        root = find_rest(statics(model.system, z), z, names=_parts(model, names))
+        return root.y, root.corrections.size, ""
+    except (NotConvergedError, InfeasibleError) as error:
+        plain = error
+    try:
+        found = slacken(model, model.system, guess_equilibrium)
     except NotConvergedError as error:
+        last = plain.partial.y if isinstance(plain.partial, Root) else z
+        reason = error.reason if error.partial else f"{error.reason}; {_farthest(model, last, names)}"
         raise NotConvergedError(
-            f"the {model.setup.name}: {error.reason}",
-            "--method dynamic, or --start from the result of a line that is not far from this one",
-            error.partial,
+            f"the {model.setup.name}: {reason}",
+            f"{error.advice}; --method dynamic; or --start from the result of a line that is not far away",
+            error.partial or plain.partial,
         ) from error
+    except InfeasibleError as error:
+        raise InfeasibleError(f"the {model.setup.name}: {error}", error.partial) from error
+    steps = found.released.parts.size
+    return found.z, found.iterations, f" (the {model.setup.name} slackened in {steps} load steps)"
 
 
-def statics(system: System, z: FloatArray) -> System:
-    """Return the system with targets in the place of controls, and joints in the elements that fit z."""
-    parts = tuple(Targets.of(part) if isinstance(part, Controls) else part for part in system.contributions)
-    static = System(system.unknowns, parts)
-    return static.relocate(z) or static
+def _farthest(model: WireModel, z: FloatArray, names: tuple[str, ...]) -> str:
+    """Return which dropper is farthest from its target."""
+    error = Rest(model, 0.0, z, _BAND).controls[1].error(0.0, z)
+    worst = int(np.argmax(np.abs(error)))
+    what, unit = ("height", "m") if model.setup.droppers.up else ("force", "N")
+    return (
+        f"farthest from its target in the end was the {what} of {names[worst]}, by {error[worst]:.3g} {unit}"
+    )
+
+
+def _parts(model: WireModel, names: tuple[str, ...]) -> Names:
+    """Return the names of the parts of a wire, for messages."""
+    wire, droppers = model.setup.name, model.droppers
+    clamps = np.concatenate((model.clamp_s, droppers.clamp_force.ravel()))
+    supports = np.concatenate((model.support_s, model.support_force.ravel()))
+    return [
+        (f"the {wire}", model.wire.nodes),
+        (f"the pull at the ends of the {wire}", model.pull),
+        (f"a support of the {wire}", supports),
+        (f"an end of the {wire}", model.end_force),
+        *((f"the travel of {name}", index) for name, index in zip(names, droppers.travel, strict=True)),
+        *((name, chain.nodes) for name, chain in zip(names, droppers.chains, strict=True)),
+        ("a dropper clamp", clamps),
+        ("the far end of a dropper", droppers.free_force),
+    ]

@@ -75,7 +75,7 @@ class DynamicEquilibrium:
         begin = perf_counter()
         contact = self._step(line, contact_wire_setup(line), 1, start, begin)
         force, height = foot_force(_rest(contact)), clamp_height(_rest(contact))
-        refuse_compression(force)
+        refuse_compression(line, force, _rest(contact))
         messenger = self._step(line, messenger_wire_setup(line, force, height), 2, start, begin)
         self._tell(Progress("lengths", 3, _STAGES, elapsed=perf_counter() - begin))
         motions = (contact, messenger)
@@ -91,7 +91,7 @@ class DynamicEquilibrium:
 
     def _step(
         self, line: Line, setup: WireSetup, number: int, start: FormResult | None, begin: float
-    ) -> Motion:
+    ) -> Motion[WireModel]:
         self._tell(Progress(setup.name, number, _STAGES, elapsed=perf_counter() - begin))
         if start is None:
             model = build_wire_model(setup)
@@ -146,16 +146,16 @@ class DynamicEquilibrium:
             self.listener(progress)
 
 
-def _rest(motion: Motion) -> Rest:
+def _rest(motion: Motion[WireModel]) -> Rest:
     tension, droppers = motion.controls
     return Rest(motion.model, motion.t, motion.z, (tension.law.e0, droppers.law.e0))
 
 
-def _history(motion: Motion, support_names: tuple[str, ...]) -> History:
+def _history(motion: Motion[WireModel], support_names: tuple[str, ...]) -> History:
     return history(motion.model, motion.solution, support_names)
 
 
-def _counters(motion: Motion) -> Counters:
+def _counters(motion: Motion[WireModel]) -> Counters:
     work = motion.solution.counters
     return Counters(
         step=motion.model.setup.name,

@@ -28,14 +28,14 @@ class Tolerances:
         The same for control parameters [m]: one value, or one for each in the order of their numbers.
     correction : float
         Newton correction of a position, sliding coordinate or parameter that counts as none [m].
-    force : float
-        The same for multipliers [N].
+    force : float or FloatArray
+        The same for multipliers [N]: one value, or one for each in the order of their numbers.
     """
 
     position: float
     parameter: float | FloatArray
     correction: float
-    force: float
+    force: float | FloatArray
 
 
 @dataclass(frozen=True)
@@ -66,7 +66,8 @@ class MotionProblem:
         constraint = unknowns.where(Kind.MULTIPLIER)
         error_scale = np.where(unknowns.where(Kind.POSITION), tolerances.position, np.inf)
         error_scale[unknowns.where(Kind.PARAMETER)] = tolerances.parameter
-        newton_scale = np.where(constraint, tolerances.force, tolerances.correction)
+        newton_scale = np.full(constraint.size, tolerances.correction)
+        newton_scale[constraint] = tolerances.force
         return order.astype(np.int8), constraint, error_scale, newton_scale
 
     @property

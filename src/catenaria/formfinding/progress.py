@@ -13,7 +13,7 @@ class Progress:
     Attributes
     ----------
     stage : str
-        ``compiling``, ``contact wire``, ``messenger wire`` or ``lengths``.
+        ``compiling``, ``contact wire``, ``messenger wire``, ``lengths`` or ``rebuild``.
     stage_number, stage_count : int
         Number of the stage, from 1, and how many there are.
     time, step_size : float

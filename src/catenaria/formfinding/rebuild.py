@@ -6,56 +6,28 @@ bars of the found unstressed lengths, clamped where they were found, wire ends p
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from catenaria.discretise.line_model import LineModel
-from catenaria.errors import NotConvergedError
+from catenaria.errors import InfeasibleError, NotConvergedError, SingularError
 from catenaria.formfinding.coupled import guess_line
-from catenaria.formfinding.static_problem import find_rest
+from catenaria.formfinding.rebuild_allowance import Measured, allowance, measure
+from catenaria.formfinding.relaxed_rebuild import rest_by_relaxation
+from catenaria.formfinding.static_rebuild import rest_statically
 from catenaria.line import Line
 from catenaria.results.form import FormResult
+from catenaria.results.rebuilt import Comeback, Rebuilt
 
 FloatArray = NDArray[np.float64]
+Way = Literal["static", "relaxation"]
 
-_ITERATIONS = 50
-
-
-@dataclass(frozen=True)
-class Rebuilt:
-    """Where the rebuilt line came to rest.
-
-    Attributes
-    ----------
-    height, messenger_height : FloatArray, shape (n,)
-        Heights of the two wires at the droppers [m].
-    force : FloatArray, shape (n,)
-        Vertical forces of the droppers on the contact wire [N].
-    tension : FloatArray, shape (2,)
-        Reactions at the ends of contact wire and messenger [N].
-    height_change, messenger_height_change, force_change, tension_change : FloatArray
-        The same minus what the method had returned.
-    height_error : FloatArray, shape (n,)
-        Height of the contact wire minus the wanted one [m].
-    iterations : int
-        Newton iterations from a taut-string start.
-    """
-
-    height: FloatArray
-    messenger_height: FloatArray
-    force: FloatArray
-    tension: FloatArray
-    height_change: FloatArray
-    messenger_height_change: FloatArray
-    force_change: FloatArray
-    tension_change: FloatArray
-    height_error: FloatArray
-    iterations: int
+_ADVICE = "the other way to rebuild, or none, for the result as it is (--rebuild)"
 
 
-def rebuild(line: Line, result: FormResult) -> Rebuilt:
+def rebuild(line: Line, result: FormResult, way: Way = "static") -> Rebuilt:
     """Build a line from a result and let it come to rest.
 
     Parameters
@@ -64,6 +36,9 @@ def rebuild(line: Line, result: FormResult) -> Rebuilt:
         The line for which the form was found.
     result : FormResult
         What was found, by any method.
+    way : {"static", "relaxation"}
+        Newton's method from a taut string, or from the found state if it fails; or dynamic relaxation from a
+        disturbed taut string.
 
     Returns
     -------
@@ -72,41 +47,54 @@ def rebuild(line: Line, result: FormResult) -> Rebuilt:
     Raises
     ------
     NotConvergedError
-        If the built line has no equilibrium near a taut string.
+        If the built line does not come to rest.
     """
-    model, z = guess_line(line)
+    model, z = _built(line, result)
+    try:
+        if way == "relaxation":
+            at_rest, steps, said = *rest_by_relaxation(model, z), way
+        else:
+            at_rest, steps, said = rest_statically(model, z, result)
+    except (NotConvergedError, SingularError) as error:
+        raise NotConvergedError(f"the rebuilt line: {error.reason}", _ADVICE, error.partial) from error
+    except InfeasibleError as error:
+        raise NotConvergedError(f"the rebuilt line: {error}", _ADVICE) from error
+    return _compare(model, at_rest, said, steps, result)
+
+
+def _built(line: Line, result: FormResult) -> tuple[LineModel, FloatArray]:
+    """Return the line near its equilibrium, with the found lengths, clamps and pulls."""
     droppers = result.droppers
+    model, z = guess_line(line, (droppers.force_bottom, droppers.height))
     z[model.length] = droppers.unstressed_length
     z[model.contact.clamp_s] = droppers.contact_coordinate
     z[model.messenger.clamp_s] = droppers.messenger_coordinate
     for hung, form in zip((model.contact, model.messenger), result.wires, strict=True):
         z[hung.pull] = form.travel
-    iterations = 0
-    for may_push in (True, False):  # bars that cannot push may be slack, and without stiffness, at the start
-        try:
-            root = find_rest(model.as_built(z, may_push), z, _ITERATIONS)
-        except NotConvergedError as error:
-            reason, advice = f"the rebuilt line: {error.reason}", "checking the found lengths"
-            raise NotConvergedError(reason, advice, error.partial) from error
-        z, iterations = root.y, iterations + root.corrections.size
-    return _compare(model, z, iterations, result)
+    return model, z
 
 
-def _compare(model: LineModel, z: FloatArray, iterations: int, result: FormResult) -> Rebuilt:
-    droppers = result.droppers
-    wires = (model.contact, model.messenger)
-    height, messenger_height = (hung.wire.evaluate(z, z[hung.clamp_s]).r[:, 2] for hung in wires)
-    force = model.droppers(z, clamped=True).loads(z)[0][:, 2]
-    tension = np.array([float(np.linalg.norm(z[hung.end_force[1]])) for hung in wires])
+def _compare(model: LineModel, z: FloatArray, way: str, iterations: int, result: FormResult) -> Rebuilt:
+    droppers, wires = result.droppers, result.wires
+    rebuilt, allowed = measure(model, z), allowance(model, z, result)
+    found = Measured(
+        droppers.height,
+        droppers.messenger_height,
+        droppers.force_bottom,
+        np.array([wire.reaction_end for wire in wires]),
+    )
+    height, messenger_height, force, tension = (
+        Comeback(after, after - before, limit)
+        for after, before, limit in zip(rebuilt, found, allowed, strict=True)
+    )
     return Rebuilt(
-        height,
-        messenger_height,
-        force,
-        tension,
-        height - droppers.height,
-        messenger_height - droppers.messenger_height,
-        force - droppers.force_bottom,
-        tension - np.array([form.reaction_end for form in result.wires]),
-        height - droppers.target_height,
-        iterations,
+        way=way,
+        iterations=iterations,
+        height=height,
+        messenger_height=messenger_height,
+        force=force,
+        tension=tension,
+        height_error=rebuilt.height - droppers.target_height,
+        # a strain at a support changes as the reaction does
+        tension_error=np.array([wire.tension_error for wire in wires]) + tension.change,
     )

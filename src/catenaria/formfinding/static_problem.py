@@ -9,6 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csc_matrix
 
+from catenaria.errors import InfeasibleError, NotConvergedError
+from catenaria.formfinding.count import check_count
+from catenaria.formfinding.free_motion import Names, ParameterCheck, refuse_free_motion
+from catenaria.mechanics.controls.control import Controls
+from catenaria.mechanics.controls.target import Targets
 from catenaria.mechanics.state import State
 from catenaria.mechanics.system import System
 from catenaria.mechanics.unknowns import Kind
@@ -33,7 +38,7 @@ class StaticProblem:
 
     system: System
     correction: float
-    force: float
+    force: float | FloatArray
 
     @cached_property
     def _scale(self) -> FloatArray:
@@ -62,7 +67,19 @@ class StaticProblem:
         return None if system is None else replace(self, system=system)
 
 
-def find_rest(system: System, z: FloatArray, max_iterations: int = 30) -> Root:
+def statics(system: System, z: FloatArray) -> System:
+    """Return the system with targets in the place of controls, and joints in the elements that fit z."""
+    parts = tuple(Targets.of(part) if isinstance(part, Controls) else part for part in system.contributions)
+    static = System(system.unknowns, parts)
+    return static.relocate(z) or static
+
+
+def static_problem(system: System) -> StaticProblem:
+    """Return the problem with the tolerances of lines: nanometres and 0.01 mN."""
+    return StaticProblem(system, _CORRECTION, _FORCE)
+
+
+def find_rest(system: System, z: FloatArray, max_iterations: int = 30, names: Names = ()) -> Root:
     """Return where a system that is numbered along the line is at rest.
 
     Parameters
@@ -73,11 +90,44 @@ def find_rest(system: System, z: FloatArray, max_iterations: int = 30) -> Root:
         Where to start.
     max_iterations : int
         Limit of Newton iterations.
+    names : sequence
+        Names of parts, each with the indices of its unknowns, for messages.
 
     Raises
     ------
     NotConvergedError
         See `catenaria.solvers.newton.solve_newton`.
+    InfeasibleError
+        If a cable slides out of a joint.
+    InconsistentInputError, SingularError
+        If the targets are too many or too few, or leave a motion free.
     """
     options = NewtonOptions(max_iterations=max_iterations, permc_spec="NATURAL")
-    return solve_newton(StaticProblem(system, _CORRECTION, _FORCE), z, options)
+    return find_root(static_problem(system), z, options, names)
+
+
+def find_root(
+    problem: StaticProblem, z: FloatArray, options: NewtonOptions | None = None, names: Names = ()
+) -> Root:
+    """Return where a system is at rest, or say what is free to move.
+
+    Parameters
+    ----------
+    problem : StaticProblem
+        The system and its tolerances.
+    z, options, names
+        As of `find_rest` and `solve_newton`.
+
+    Raises
+    ------
+    InconsistentInputError
+        If the number of targets does not fit; see `check_count`.
+    NotConvergedError, InfeasibleError, SingularError
+        As `find_rest`.
+    """
+    check_count(problem.system, names)
+    try:
+        return solve_newton(problem, z, options, ParameterCheck(problem.system, z, names))
+    except (NotConvergedError, InfeasibleError):
+        refuse_free_motion(problem.system, (z,), names)
+        raise

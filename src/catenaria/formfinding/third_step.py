@@ -238,17 +238,28 @@ def _refuse(
         raise InfeasibleError(f"droppers {what}: {where}. {advice}", partial)
 
 
+def _numbers(line: Line) -> NDArray[np.int64]:
+    """Return the number of every dropper within its span, shape (n,)."""
+    span = np.array(line.dropper_span, dtype=np.int64)
+    return np.arange(span.size) - np.searchsorted(span, span) + 1
+
+
+def dropper_names(line: Line) -> tuple[str, ...]:
+    """Return the names of all droppers: numbers within spans."""
+    spans = line.dropper_span
+    return tuple(f"dropper {n} in span {i + 1}" for n, i in zip(_numbers(line), spans, strict=True))
+
+
 def _named(line: Line, droppers: NDArray[np.intp], sizes: list[str]) -> str:
     """Return numbers within spans with sizes; the span is named if there are several."""
-    span = np.array(line.dropper_span)
-    number = droppers - np.searchsorted(span, span[droppers]) + 1
-    named = [f"{n} ({size})" for n, size in zip(number, sizes, strict=True)]
+    span = np.array(line.dropper_span)[droppers]
+    numbers = _numbers(line)[droppers]
+    named = [f"{n} ({size})" for n, size in zip(numbers, sizes, strict=True)]
     if len(line.spans) == 1:
         return ", ".join(named)
     return "; ".join(
-        ", ".join(name for name, at in zip(named, span[droppers], strict=True) if at == i)
-        + f" in span {i + 1}"
-        for i in np.unique(span[droppers])
+        ", ".join(name for name, at in zip(named, span, strict=True) if at == i) + f" in span {i + 1}"
+        for i in np.unique(span)
     )
 
 

@@ -13,6 +13,7 @@ from catenaria.line.control import (
 from catenaria.line.dropper import DropperKind, Droppers
 from catenaria.line.line import Line
 from catenaria.line.load import load_line
+from catenaria.line.mesh_options import read_mesh, with_mesh
 from catenaria.line.schema import schema
 from catenaria.line.solver import DynamicOptions, Integrator, Mesh, Rayleigh, Settle, Solver
 from catenaria.line.source import Source
@@ -52,7 +53,9 @@ __all__ = [
     "Track",
     "Wire",
     "load_line",
+    "read_mesh",
     "refuse_unsupported",
     "schema",
     "summarise",
+    "with_mesh",
 ]

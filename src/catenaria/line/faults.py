@@ -93,7 +93,7 @@ def _allowed(problem: ErrorDetails) -> str:
             return "a text; put quotes around a number that is one"
         case "int_type":
             return "a whole number"
-        case "float_type" | "finite_number":
+        case "float_type" | "float_parsing" | "finite_number":
             return "a finite number"
         case "greater_than_equal":
             return f"{context['ge']:g} or more"

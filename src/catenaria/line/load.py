@@ -4,17 +4,19 @@ from __future__ import annotations
 
 import copy
 from pathlib import Path as FilePath
-from typing import Any, cast
+from typing import Any, TypeVar, cast
 
 from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
 from catenaria.errors import LineFileError
-from catenaria.line.base import Path
+from catenaria.line.base import LineModel, Path
 from catenaria.line.faults import faults_of, place_of, value_at
 from catenaria.line.line import Line
 from catenaria.line.reading import read_tree
 from catenaria.units import UNKNOWN
+
+Model = TypeVar("Model", bound=LineModel)
 
 
 def load_line(path: str | FilePath) -> Line:
@@ -35,15 +37,38 @@ def load_line(path: str | FilePath) -> Line:
     LineFileError
         With one `Fault` for each thing that is wrong, in the order of the file.
     """
+    return load_model(path, Line)
+
+
+def load_model(path: str | FilePath, model: type[Model]) -> Model:
+    """Read and check a file that describes a line or anything else that is made of the same kind of models.
+
+    Parameters
+    ----------
+    path : str or pathlib.Path
+        A YAML file, or a JSON file with the suffix ``.json``.
+    model : type
+        What it describes.
+
+    Returns
+    -------
+    Model
+        With every quantity in SI; its validation has had the `Source` as context.
+
+    Raises
+    ------
+    LineFileError
+        With one `Fault` for each thing that is wrong, in the order of the file.
+    """
     tree, source = read_tree(FilePath(path))
     try:
-        return Line.model_validate(tree, context=source)
+        return model.model_validate(tree, context=source)
     except ValidationError as error:
-        problems = _all_problems(tree, error)
+        problems = _all_problems(model, tree, error)
     raise LineFileError(faults_of(problems, tree, source))
 
 
-def _all_problems(tree: object, error: ValidationError) -> dict[Path, ErrorDetails]:
+def _all_problems(model: type[LineModel], tree: object, error: ValidationError) -> dict[Path, ErrorDetails]:
     """Collect the problems behind the problems.
 
     What does not fit together is found only where the parts are right. Values whose fault is known are
@@ -61,7 +86,7 @@ def _all_problems(tree: object, error: ValidationError) -> dict[Path, ErrorDetai
         for place, problem in new.items():
             _neutralise(tree, place, problem["type"])
         try:
-            Line.model_validate(tree)
+            model.model_validate(tree)
         except ValidationError as behind:
             error = behind
         else:

@@ -49,6 +49,20 @@ def read_tree(path: FilePath) -> tuple[object, Source]:
     return tree, source
 
 
+def read_value(text: str, otherwise: object) -> object:
+    """Read a YAML value that stands in no file; return `otherwise` if the text is none.
+
+    Examples
+    --------
+    >>> read_value("[0.1, 30 cm]", None)
+    [0.1, '30 cm']
+    """
+    try:
+        return _Builder("").build(text)[0]
+    except LineFileError:
+        return otherwise
+
+
 def _refuse(file: str, found: str, allowed: str, mark: Mark = (0, 0), field: str = "the file") -> NoReturn:
     """Raise one fault that makes the file as a whole useless."""
     raise LineFileError((Fault(file, *mark, format_path(()), found, allowed),))

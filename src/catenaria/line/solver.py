@@ -41,6 +41,13 @@ class Mesh(LineModel):
         description="Distances from every support and clamp at which nodes stand, ascending.",
     )
     largest_element: PositiveLength = Field(default=2.4, description="Length that no element exceeds.")
+    even: Count | None = Field(
+        default=None,
+        description=(
+            "Divide each wire into so many equal elements instead, wherever supports and clamps come to lie, "
+            "to compare with computations on such meshes."
+        ),
+    )
     gauss_points: Annotated[int, Strict(), Ge(4), Le(20)] = Field(
         default=5,
         description=(

@@ -26,6 +26,7 @@ DARK, GREY, FAINT, PALE = "#222222", "#666666", "#AAAAAA", "#DDDDDD"
 WIRE_COLOURS = {"contact wire": RED, "messenger wire": BLUE}
 
 DOTS_PER_INCH = 150
+_PAGE_DOTS_PER_INCH = 90
 _INK = 10.0  # font size [pt]
 _WIDTH = 10.0  # of a figure [inch]; so are the margins
 _LEFT, _RIGHT, _TOP, _BOTTOM, _BETWEEN = 1.0, 0.25, 1.2, 0.62, 1.05
@@ -112,6 +113,14 @@ def logarithmic_time(axes: Axes, t: FloatArray) -> None:
     axes.set_xscale("log")
     _plain_ticks(axes.get_xaxis())
     axes.set_xlim(max(float(t[t > 0.0][0]), _SHORTEST * float(t[-1])), float(t[-1]))
+
+
+def count_along(axes: Axes, numbers: FloatArray, *, logarithmic: bool = False) -> None:
+    """Give a panel a horizontal axis that counts things, with a tick at each of the numbers."""
+    if logarithmic:
+        axes.set_xscale("log")
+    _plain_ticks(axes.get_xaxis())
+    axes.set_xticks(np.unique(numbers))
 
 
 def line(
@@ -249,9 +258,13 @@ def state_exaggeration(axes: Axes, y_unit: float) -> None:
     )
 
 
-def save(figure: Figure, file: Path) -> Path:
-    """Write a figure as PNG without anything in it that depends on the day or the program's version."""
-    figure.savefig(file, dpi=DOTS_PER_INCH, metadata={"Software": None}, pil_kwargs={"compress_level": 1})
+def save(figure: Figure, file: Path, *, compact: bool = False) -> Path:
+    """Write a figure as PNG without anything in it that depends on the day or the program's version.
+
+    A compact one is for pages: coarser, and compressed as far as it goes, which takes longer.
+    """
+    dpi, level = (_PAGE_DOTS_PER_INCH, 9) if compact else (DOTS_PER_INCH, 1)
+    figure.savefig(file, dpi=dpi, metadata={"Software": None}, pil_kwargs={"compress_level": level})
     return file
 
 

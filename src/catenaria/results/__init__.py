@@ -15,17 +15,21 @@ from catenaria.results.form import (
     Supports,
     WireForm,
 )
+from catenaria.results.rebuilt import NOT_REBUILT, Comeback, Rebuilt
 from catenaria.results.store import load_result, save_result
 
 __all__ = [
     "NOT_AUDITED",
+    "NOT_REBUILT",
     "Audit",
+    "Comeback",
     "Controls",
     "Counters",
     "Droppers",
     "FormResult",
     "History",
     "Profile",
+    "Rebuilt",
     "Stage",
     "Supports",
     "WireForm",

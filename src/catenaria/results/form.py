@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from catenaria.results.audit import NOT_AUDITED, Audit
+from catenaria.results.rebuilt import NOT_REBUILT, Rebuilt
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -324,6 +325,8 @@ class FormResult:
         Versions of catenaria, Python, NumPy, SciPy and Numba.
     audit : Audit
         What an audit of the other fields found; empty until there was one.
+    rebuilt : Rebuilt
+        Where a line built from the found lengths came to rest; empty until there was one.
     """
 
     name: str
@@ -339,3 +342,4 @@ class FormResult:
     inputs: dict[str, Any]
     versions: dict[str, str]
     audit: Audit = NOT_AUDITED
+    rebuilt: Rebuilt = NOT_REBUILT

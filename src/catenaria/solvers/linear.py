@@ -14,6 +14,9 @@ from catenaria.solvers.problem import BoolArray, FloatArray, OrderArray, SparseM
 ColumnOrdering = Literal["COLAMD", "MMD_AT_PLUS_A", "NATURAL"]
 
 
+_PANEL = 4  # columns that SuperLU treats at once; its default of 12 is for matrices with larger dense blocks
+
+
 class Scaling(NamedTuple):
     """Factors by which rows and columns of a matrix are multiplied before it is factorised."""
 
@@ -22,7 +25,7 @@ class Scaling(NamedTuple):
 
 
 class _Lu(Protocol):
-    def solve(self, rhs: FloatArray, /) -> FloatArray: ...
+    def solve(self, rhs: FloatArray, trans: Literal["N", "T"] = "N", /) -> FloatArray: ...
 
 
 @dataclass(frozen=True)
@@ -37,6 +40,12 @@ class Factorisation:
         if self.scaling is None:
             return self.lu.solve(rhs)
         return self.scaling.column * self.lu.solve(self.scaling.row * rhs)
+
+    def solve_transposed(self, rhs: FloatArray) -> FloatArray:
+        """Return x of A^T x = rhs; shape (n,)."""
+        if self.scaling is None:
+            return self.lu.solve(rhs, "T")
+        return self.scaling.row * self.lu.solve(self.scaling.column * rhs, "T")
 
 
 def index3_scaling(matrix: SparseMatrix, order_of: OrderArray, constraint: BoolArray) -> Scaling:
@@ -111,12 +120,20 @@ def factorise(
     """
     if not np.isfinite(matrix.data).all():
         raise np.linalg.LinAlgError("the matrix has an entry that is not finite")
-    scaled = matrix if scaling is None else _scale(matrix, scaling)
+    scaled = _nonzero(matrix if scaling is None else _scale(matrix, scaling))
     try:
-        lu = cast("_Lu", splu(cast("Any", scaled), permc_spec=permc_spec))
+        lu = cast("_Lu", splu(cast("Any", scaled), permc_spec=permc_spec, panel_size=_PANEL))
     except RuntimeError as error:  # SuperLU's only way to say so
         raise np.linalg.LinAlgError("the matrix is singular") from error
     return Factorisation(lu, scaling)
+
+
+def _nonzero(matrix: SparseMatrix) -> SparseMatrix:
+    """Return the matrix without stored zeros: in a plane problem these would tie the third direction in."""
+    stored = matrix.data != 0.0
+    columns = np.concatenate(([0], np.cumsum(stored)))[matrix.indptr]
+    parts = (matrix.data[stored], matrix.indices[stored], columns.astype(matrix.indptr.dtype))
+    return cast("SparseMatrix", csc_array(parts, shape=(columns.size - 1, columns.size - 1)))
 
 
 def _scale(matrix: SparseMatrix, scaling: Scaling) -> SparseMatrix:

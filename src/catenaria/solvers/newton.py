@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from catenaria.errors import NotConvergedError
 from catenaria.solvers.linear import ColumnOrdering, Factorisation, factorise
-from catenaria.solvers.problem import AlgebraicProblem, FloatArray
+from catenaria.solvers.problem import AlgebraicProblem, FloatArray, SparseMatrix
+
+Inspect = Callable[[SparseMatrix, Factorisation], None]
 
 
 @dataclass(frozen=True)
@@ -67,7 +70,12 @@ class _Iterate:
         return Root(self.y, self.converged, np.array(self.corrections), np.array(self.damping), self.problem)
 
 
-def solve_newton(problem: AlgebraicProblem, y: FloatArray, options: NewtonOptions | None = None) -> Root:
+def solve_newton(
+    problem: AlgebraicProblem,
+    y: FloatArray,
+    options: NewtonOptions | None = None,
+    inspect: Inspect | None = None,
+) -> Root:
     """Find a root of f from a starting guess.
 
     Parameters
@@ -78,6 +86,8 @@ def solve_newton(problem: AlgebraicProblem, y: FloatArray, options: NewtonOption
         Starting guess; it is not changed.
     options : NewtonOptions, optional
         Limits.
+    inspect : callable, optional
+        Is shown the first Jacobian and its factors before they are used, and may refuse them by an error.
 
     Returns
     -------
@@ -123,20 +133,24 @@ def solve_newton(problem: AlgebraicProblem, y: FloatArray, options: NewtonOption
     while not iterate.converged:
         if len(iterate.corrections) >= options.max_iterations:
             raise _failure(iterate, f"Newton's method has made {options.max_iterations} iterations")
-        iterate = _iterate(iterate, options)
+        iterate = _iterate(iterate, options, inspect)
+        inspect = None
         selected = iterate.problem.reselect(iterate.y)
         if selected is not None:
             iterate = replace(iterate, problem=selected, converged=False)
     return iterate.root()
 
 
-def _iterate(iterate: _Iterate, options: NewtonOptions) -> _Iterate:
+def _iterate(iterate: _Iterate, options: NewtonOptions, inspect: Inspect | None) -> _Iterate:
     """Return the next accepted iterate."""
     problem, y = iterate.problem, iterate.y
+    jacobian = problem.jacobian(y)
     try:
-        factorisation = factorise(problem.jacobian(y), permc_spec=options.permc_spec)
+        factorisation = factorise(jacobian, permc_spec=options.permc_spec)
     except np.linalg.LinAlgError as error:
         raise _failure(iterate, f"In Newton's method {error}") from error
+    if inspect is not None:
+        inspect(jacobian, factorisation)
     correction = _correction(problem, factorisation, y)
     size = _size(problem, correction)
     if not np.isfinite(size):

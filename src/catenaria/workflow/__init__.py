@@ -1,7 +1,21 @@
 """The one place that wires line, method and result together."""
 
 from catenaria.formfinding.progress import Progress
-from catenaria.workflow.solve import METHODS, solve
+from catenaria.workflow.solve import METHODS, Rebuild, solve
+from catenaria.workflow.solve_structure import solve_structure
+from catenaria.workflow.validate import CaseProgress, ValidatedCase, validate
 from catenaria.workflow.write import write
+from catenaria.workflow.write_validation import write_validation
 
-__all__ = ["METHODS", "Progress", "solve", "write"]
+__all__ = [
+    "METHODS",
+    "CaseProgress",
+    "Progress",
+    "Rebuild",
+    "ValidatedCase",
+    "solve",
+    "solve_structure",
+    "validate",
+    "write",
+    "write_validation",
+]

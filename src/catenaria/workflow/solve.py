@@ -4,15 +4,21 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
+from time import perf_counter
+from typing import Literal, get_args
 
 from catenaria.audit import audit_result
-from catenaria.errors import UnsupportedError
+from catenaria.errors import NotConvergedError, UnsupportedError
 from catenaria.formfinding.direct import Direct
 from catenaria.formfinding.dynamic_equilibrium import DynamicEquilibrium
 from catenaria.formfinding.progress import Listener, Progress
-from catenaria.line import Line, load_line, refuse_unsupported
+from catenaria.formfinding.rebuild import Way
+from catenaria.formfinding.rebuild import rebuild as rebuild_line
+from catenaria.line import Line, Mesh, load_line, refuse_unsupported, with_mesh
 from catenaria.mechanics.kernels.warm_up import need_compiling, warm_up
 from catenaria.results.form import FormResult
+
+Rebuild = Literal["static", "relaxation", "none"]
 
 METHODS = {"direct": Direct, "dynamic": DynamicEquilibrium}
 
@@ -22,6 +28,8 @@ def solve(
     method: str = "direct",
     start: FormResult | None = None,
     progress: Listener | None = None,
+    rebuild: Rebuild = "static",
+    mesh: Mesh | None = None,
 ) -> FormResult:
     """Find the form of an overhead contact line.
 
@@ -35,11 +43,15 @@ def solve(
         An earlier result of the same line to begin from.
     progress : callable, optional
         Receives a `Progress` after every time step.
+    rebuild : {"static", "relaxation", "none"}
+        Whether a line is built from the found lengths, and how it is brought to rest.
+    mesh : Mesh, optional
+        The fields that are given in it replace those of the line, as in `Mesh(refine=2)`.
 
     Returns
     -------
     FormResult
-        With the outcome of its audit.
+        With the outcome of its audit and of its rebuild.
 
     Raises
     ------
@@ -48,15 +60,34 @@ def solve(
     UnsupportedError
         If the method does not exist or cannot do what the line asks for.
     NotConvergedError
-        If the computation does not come to rest.
+        If the computation or the rebuilt line does not come to rest; in the latter case, `partial` is the
+        result without a rebuild.
     """
     if method not in METHODS:
         raise UnsupportedError(f"there is no method {method!r}; there is {', '.join(METHODS)}")
+    if rebuild not in get_args(Rebuild):
+        raise UnsupportedError(f"there is no rebuild {rebuild!r}; there is {', '.join(get_args(Rebuild))}")
+    begin = perf_counter()
     if not isinstance(line, Line):
         line = load_line(line)
+    if mesh is not None:
+        line = with_mesh(line, mesh)
     refuse_unsupported(line)
     if progress is not None and need_compiling():
         progress(Progress("compiling", 1, 3))
         warm_up()
     result = METHODS[method](progress).find_form(line, start)
-    return replace(result, audit=audit_result(result))
+    result = replace(result, audit=audit_result(result))
+    if rebuild == "none":
+        return result
+    if progress is not None:
+        progress(Progress("rebuild", 3, 3, elapsed=perf_counter() - begin))
+    return _rebuilt(line, result, rebuild)
+
+
+def _rebuilt(line: Line, result: FormResult, way: Way) -> FormResult:
+    """Return the result with its rebuild; a rebuild that fails hands the result on."""
+    try:
+        return replace(result, rebuilt=rebuild_line(line, result, way))
+    except NotConvergedError as error:
+        raise NotConvergedError(error.reason, error.advice, result) from error
