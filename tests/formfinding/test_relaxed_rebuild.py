@@ -39,11 +39,11 @@ def found(short: Line) -> FormResult:
 
 
 def check_comes_back(line: Line, result: FormResult) -> None:
-    """Within 0.01 mm and 0.1 N, the demand, and where Newton's method comes to rest, ten times closer."""
+    """Within 0.01 mm and 0.1 N, the demand, and where Newton's method ends: supports give way by 1 um."""
     relaxed, static = rebuild(line, result, "relaxation"), rebuild(line, result, "static")
     assert relaxed.findings() == ()
-    np.testing.assert_allclose(relaxed.height.value, static.height.value, atol=1e-6)
-    np.testing.assert_allclose(relaxed.messenger_height.value, static.messenger_height.value, atol=1e-6)
+    np.testing.assert_allclose(relaxed.height.value, static.height.value, atol=2e-6)
+    np.testing.assert_allclose(relaxed.messenger_height.value, static.messenger_height.value, atol=2e-6)
     np.testing.assert_allclose(relaxed.force.value, static.force.value, atol=1e-2)
     np.testing.assert_allclose(relaxed.tension.value, static.tension.value, atol=1e-2)
 

@@ -217,6 +217,16 @@ def test_a_parameter_that_nothing_needs() -> None:
         solve(description)
 
 
+def test_a_height_beyond_reach() -> None:
+    """A cable of 10.5 m that is lifted by 3 m slides out of its ring, and the error says so."""
+    description = hung("reaction", "right")
+    description["heights"]["h"]["height"] = 0.5
+    np.testing.assert_allclose(solve(description).position("clamp")[2], 0.5, rtol=1e-9)
+    description["heights"]["h"]["height"] = 3.0
+    with pytest.raises(NotConvergedError, match=r"no way from the start.*slid out of a joint"):
+        solve(description)
+
+
 def test_no_such_method() -> None:
     with pytest.raises(UnsupportedError, match="direct, dynamic"):
         solve(string(), "magic")

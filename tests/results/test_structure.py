@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from catenaria.errors import InconsistentInputError
-from catenaria.results.codec import decode, encode
+from catenaria.results import load_result, save_result
 from catenaria.results.structure import StructureForm
 from catenaria.workflow import solve_structure
 
@@ -29,11 +29,18 @@ def test_by_name(form: StructureForm) -> None:
         form.force("P5")
 
 
-def test_stored_and_read(form: StructureForm) -> None:
-    tree, arrays = encode(form, StructureForm)
-    back = decode(tree, StructureForm, arrays)
-    assert encode(back, StructureForm)[0] == tree
-    np.testing.assert_array_equal(back.unknowns, form.unknowns)
+def test_stored_and_read(form: StructureForm, tmp_path: Path) -> None:
+    save_result(form, tmp_path / "one")
+    back = load_result(tmp_path / "one", StructureForm)
+    assert back.inputs == form.inputs
+    assert back.counters == form.counters
     np.testing.assert_array_equal(back.histories[0].joint_force, form.histories[0].joint_force)
-    with pytest.raises(InconsistentInputError, match="missing"):
-        decode(tree, StructureForm, {name: arrays[name] for name in list(arrays)[1:]})
+    save_result(back, tmp_path / "two")
+    for name in ("result.json", "result.npz"):
+        assert (tmp_path / "one" / name).read_bytes() == (tmp_path / "two" / name).read_bytes()
+
+
+def test_it_is_not_taken_for_a_line(form: StructureForm, tmp_path: Path) -> None:
+    save_result(form, tmp_path)
+    with pytest.raises(InconsistentInputError, match="is not a catenaria form-finding result"):
+        load_result(tmp_path)

@@ -191,7 +191,7 @@ def outcome(line: Line) -> FormResult | CatenariaError:
         return refusal
 
 
-@reproducible(80)
+@reproducible(120)
 @given(lines())
 def test_a_line_is_solved_or_refused(line: Line) -> None:
     found = outcome(line)

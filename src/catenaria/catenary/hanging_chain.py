@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import brentq
 
 from catenaria.errors import InconsistentInputError
 
@@ -60,6 +59,13 @@ def hanging_chain(
 
 
 def _half_angle(ratio: float) -> float:
-    """Return the positive root u of sinh(u)/u = ratio, which lies below sqrt(6 (ratio - 1))."""
-    above = float(np.sqrt(6.0 * (ratio - 1.0)))
-    return float(brentq(lambda u: np.sinh(u) - ratio * u, 0.01 * above, above, xtol=1e-15 * above))
+    """Return the positive root u of sinh(u)/u = ratio by Newton's method.
+
+    f = sinh(u) - ratio u is convex, so from a start beyond the root the iterates descend to it; both
+    sqrt(6 (ratio - 1)) and 2 log(2 ratio) + 2 are beyond it.
+    """
+    u, step = min(np.sqrt(6.0 * (ratio - 1.0)), 2.0 * np.log(2.0 * ratio) + 2.0), np.inf
+    while step > 1e-15 * u:
+        step = (np.sinh(u) - ratio * u) / (np.cosh(u) - ratio)
+        u -= step
+    return float(u)

@@ -22,7 +22,7 @@ def guess_equilibrium(model: WireModel) -> FloatArray:
     """
     z = model.system.unknowns.start.copy()
     guess_wire(model, z)
-    _place_droppers(model, z)
+    place_droppers(model, z, dropper_forces(model))
     return z
 
 
@@ -81,16 +81,27 @@ def _support_forces(hung: HungWire) -> FloatArray:
     return np.column_stack((-force * slope, np.zeros_like(force), force))
 
 
-def _place_droppers(model: WireModel, z: FloatArray) -> None:
-    """Write straight, stretched dropper cables and their forces into z."""
-    droppers, upwards = model.droppers, _upwards(model)
-    force, lean = dropper_forces(model), _lean(model)
+def place_droppers(model: WireModel, z: FloatArray, force: FloatArray) -> None:
+    """Write dropper cables that pull at the wire with the given forces, and their multipliers, into z.
+
+    They are straight, hang vertically from guided clamps or stand normal to the wire, and are stretched by
+    what they carry: tension grows by the cable's weight from its lower to its upper end.
+    """
+    droppers, setup, upwards = model.droppers, model.setup, _upwards(model)
+    kind, lean = setup.droppers, _lean(model)
     clamp = model.wire.evaluate(z, z[model.clamp_s]).r
     outwards = np.column_stack((-lean, np.zeros_like(lean), np.full_like(lean, upwards)))
-    factor = stretch(force, model.setup.droppers.section.EA) / np.hypot(1.0, lean)
-    for cable, foot, r1 in zip(droppers.chains, clamp, factor[:, None] * outwards, strict=True):
-        z[cable.nodes[:, :3]] = foot + cable.knots[:, None] * r1
-        z[cable.nodes[:, 3:]] = r1
+    outwards /= np.hypot(1.0, lean)[:, None]
+    inner = force + upwards * kind.clamp_mass * setup.g
+    weight = upwards * kind.section.rhoA * setup.g
+    for cable, foot, direction, pull in zip(droppers.chains, clamp, outwards, inner, strict=True):
+        s = cable.knots
+        r1 = stretch(pull + weight * s, kind.section.EA)
+        middle = stretch(pull + weight * 0.5 * (s[:-1] + s[1:]), kind.section.EA)
+        pieces = cable.L * (r1[:-1] + 4.0 * middle + r1[1:]) / 6.0
+        z[cable.nodes[:, :3]] = foot + np.concatenate(([0.0], np.cumsum(pieces)))[:, None] * direction
+        z[cable.nodes[:, 3:]] = r1[:, None] * direction
     far = droppers.outer[:, 2]
     z[droppers.travel] = upwards * (z[far] - model.system.unknowns.start[far])
-    z[droppers.clamp_force] = z[droppers.free_force] = -force[:, None] * outwards
+    z[droppers.clamp_force] = -force[:, None] * outwards
+    z[droppers.free_force] = -(inner + weight * kind.length)[:, None] * outwards

@@ -17,7 +17,13 @@ from catenaria.discretise.guess import guess_equilibrium
 from catenaria.discretise.restart import stage_of, start_from
 from catenaria.discretise.wire_model import WireModel, build_wire_model
 from catenaria.discretise.wire_setup import WireSetup
-from catenaria.errors import InconsistentInputError, InfeasibleError, NotConvergedError
+from catenaria.errors import (
+    CatenariaError,
+    InconsistentInputError,
+    InfeasibleError,
+    NotConvergedError,
+    SingularError,
+)
 from catenaria.formfinding.free_motion import Names
 from catenaria.formfinding.progress import Listener, Progress
 from catenaria.formfinding.slacken import slacken
@@ -126,25 +132,40 @@ def _solve(setup: WireSetup, start: FormResult | None, names: tuple[str, ...]) -
 
 def _find(model: WireModel, z: FloatArray, names: tuple[str, ...]) -> tuple[FloatArray, int, str]:
     """Return where a wire is at rest, the iterations, and how it was found."""
+    parts = _parts(model, names)
     try:
-        root = find_rest(statics(model.system, z), z, names=_parts(model, names))
+        root = find_rest(statics(model.system, z), z, names=parts)
         return root.y, root.corrections.size, ""
-    except (NotConvergedError, InfeasibleError) as error:
+    except (NotConvergedError, InfeasibleError, SingularError) as error:
         plain = error
     try:
         found = slacken(model, model.system, guess_equilibrium)
-    except NotConvergedError as error:
-        last = plain.partial.y if isinstance(plain.partial, Root) else z
-        reason = error.reason if error.partial else f"{error.reason}; {_farthest(model, last, names)}"
-        raise NotConvergedError(
-            f"the {model.setup.name}: {reason}",
-            f"{error.advice}; --method dynamic; or --start from the result of a line that is not far away",
-            error.partial or plain.partial,
-        ) from error
-    except InfeasibleError as error:
-        raise InfeasibleError(f"the {model.setup.name}: {error}", error.partial) from error
-    steps = found.released.parts.size
-    return found.z, found.iterations, f" (the {model.setup.name} slackened in {steps} load steps)"
+    except (NotConvergedError, InfeasibleError) as error:
+        raise _failure(model, z, names, plain, error) from error
+    root = find_rest(statics(model.system, found.z), found.z, names=parts)  # unless something is free there
+    steps, iterations = found.released.parts.size, found.iterations + root.corrections.size
+    return root.y, iterations, f" (the {model.setup.name} slackened in {steps} load steps)"
+
+
+def _failure(
+    model: WireModel,
+    z: FloatArray,
+    names: tuple[str, ...],
+    plain: NotConvergedError | InfeasibleError | SingularError,
+    stepping: NotConvergedError | InfeasibleError,
+) -> CatenariaError:
+    """Return the error that says most about why neither Newton's method nor load stepping found a rest."""
+    wire = model.setup.name
+    if isinstance(plain, SingularError):
+        return plain
+    if isinstance(stepping, InfeasibleError):
+        return InfeasibleError(f"the {wire}: {stepping}", stepping.partial)
+    partial = stepping.partial or plain.partial
+    reason = f"the {wire}: {stepping.reason}"
+    if isinstance(partial, Root) or partial is None:
+        reason += f"; {_farthest(model, z if partial is None else partial.y, names)}"
+    advice = f"{stepping.advice}; --method dynamic; or --start from the result of a line that is not far away"
+    return NotConvergedError(reason, advice, partial)
 
 
 def _farthest(model: WireModel, z: FloatArray, names: tuple[str, ...]) -> str:

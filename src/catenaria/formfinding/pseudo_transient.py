@@ -82,7 +82,7 @@ def rest_by_steps(problem: StaticProblem, z: FloatArray) -> tuple[Root, int]:
     Kelley & Keyes 1998, Convergence analysis of pseudo-transient continuation, SIAM J. Numer. Anal. 35,
     508-523.
     """
-    tau, failure = _FIRST, None
+    tau, failures = _FIRST, list[NotConvergedError | InfeasibleError]()
     for step in range(1, _MAX_STEPS + 1):
         try:
             reached = solve_newton(_Step(problem, z, tau), z, _NEWTON)
@@ -91,11 +91,20 @@ def rest_by_steps(problem: StaticProblem, z: FloatArray) -> tuple[Root, int]:
                 return solve_newton(problem, z), step
             tau *= _GROWTH if reached.corrections.size <= _QUICK else 1.0
         except (NotConvergedError, InfeasibleError) as error:
-            failure, tau = error, _SHORTENING * tau
+            failures.append(error)
+            tau *= _SHORTENING
         if tau < _SMALLEST:
             break
-    reason = f"no way from the start to a state of rest is found in steps from standstill; {failure}"
-    raise NotConvergedError(reason, "a start nearer to the equilibrium", getattr(failure, "partial", None))
+    raise _failure(failures)
+
+
+def _failure(failures: list[NotConvergedError | InfeasibleError]) -> NotConvergedError:
+    """Return the error that names what cannot be, if a step met with that, else why the last one failed."""
+    telling = [error for error in failures if isinstance(error, InfeasibleError)] or failures
+    why = [getattr(error, "reason", str(error)) for error in telling[-1:]]
+    reason = "; ".join(("no way from the start to a state of rest is found in steps from standstill", *why))
+    partial = failures[-1].partial if failures else None
+    return NotConvergedError(reason, "a start nearer to the equilibrium", partial)
 
 
 def _problem_of(root: Root) -> StaticProblem:

@@ -21,7 +21,7 @@ from catenaria.solvers.newton import NewtonOptions, Root, solve_newton
 FloatArray = NDArray[np.float64]
 
 _TIGHTER = (2.0, 4.0, 8.0, 16.0)
-_NEWTON = NewtonOptions(max_iterations=12, permc_spec="NATURAL")
+_NEWTON = NewtonOptions(max_iterations=30, permc_spec="NATURAL")
 _SHORT = 0.5  # part of a tail below which it is too short: what is left has to turn into the wire's slope
 
 W = TypeVar("W", bound=HungWire)
@@ -131,7 +131,7 @@ def _too_slack(found: Slackened) -> NotConvergedError | InfeasibleError:
     setup, s = hung.setup, z[hung.support_s]
     tail = min(float(s[0]), float(hung.wire.knots[-1] - s[-1]))
     missed = (
-        f"its tension of {setup.tension.force:.4g} N is the target that cannot be met; with all others met "
+        f"its tension of {setup.tension.force:.4g} N is the target that is not met; with all others met "
         f"it comes down to {found.tension:.4g} N"
     )
     if tail < _SHORT * setup.tail:

@@ -84,7 +84,8 @@ def find_static_form(model: StructureModel) -> Found:
         system = statics(model.system, z)
         root, steps = _rest(model, system, z)
     except (NotConvergedError, InfeasibleError) as error:
-        refuse_free_motion(statics(model.system, model.start), (model.start,), names)
+        last = (error.partial.y,) if isinstance(error.partial, Root) else ()
+        refuse_free_motion(statics(model.system, model.start), (model.start, *last), names)
         reason = f"{model.name}: {getattr(error, 'reason', error)}"
         raise NotConvergedError(reason, _ADVICE, error.partial) from error
     _refuse_loose_parameters(root, names)
@@ -149,4 +150,9 @@ def _refuse_loose_parameters(root: Root, names: Names) -> None:
     if not isinstance(problem, StaticProblem):
         raise TypeError("the root does not belong to a StaticProblem")
     jacobian = problem.jacobian(root.y)
-    ParameterCheck(problem.system, root.y, names)(jacobian, factorise(jacobian))
+    try:
+        factors = factorise(jacobian)
+    except np.linalg.LinAlgError:
+        refuse_free_motion(problem.system, (root.y,), names)
+    else:
+        ParameterCheck(problem.system, root.y, names)(jacobian, factors)

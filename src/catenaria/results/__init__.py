@@ -17,6 +17,7 @@ from catenaria.results.form import (
 )
 from catenaria.results.rebuilt import NOT_REBUILT, Comeback, Rebuilt
 from catenaria.results.store import load_result, save_result
+from catenaria.results.structure import StructureForm
 
 __all__ = [
     "NOT_AUDITED",
@@ -31,6 +32,7 @@ __all__ = [
     "Profile",
     "Rebuilt",
     "Stage",
+    "StructureForm",
     "Supports",
     "WireForm",
     "load_result",

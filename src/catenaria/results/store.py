@@ -14,7 +14,7 @@ import math
 import os
 import zipfile
 from pathlib import Path
-from typing import Any, cast
+from typing import Any, TypeVar, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,8 +22,14 @@ from numpy.typing import NDArray
 from catenaria.errors import InconsistentInputError
 from catenaria.results.codec import Arrays, decode, encode
 from catenaria.results.form import FormResult
+from catenaria.results.structure import StructureForm
 
-FORMAT = "catenaria form-finding result"
+Result = TypeVar("Result", FormResult, StructureForm)
+
+FORMATS: dict[type, str] = {
+    FormResult: "catenaria form-finding result",
+    StructureForm: "catenaria structure result",
+}
 VERSION = 1
 JSON_NAME = "result.json"
 ARRAYS_NAME = "result.npz"
@@ -32,12 +38,12 @@ _EPOCH = (1980, 1, 1, 0, 0, 0)  # the earliest date that a zip file can hold
 _UNIX = 3  # ZipInfo.create_system would otherwise tell on which platform the file was written
 
 
-def save_result(result: FormResult, folder: str | os.PathLike[str]) -> Path:
+def save_result(result: FormResult | StructureForm, folder: str | os.PathLike[str]) -> Path:
     """Write ``result.json`` and ``result.npz`` into a folder, which is made if need be.
 
     Parameters
     ----------
-    result : FormResult
+    result : FormResult or StructureForm
         What to save.
     folder : path
         Where to; earlier files of these two names are replaced. (`catenaria.results.replace_folder` replaces
@@ -53,10 +59,10 @@ def save_result(result: FormResult, folder: str | os.PathLike[str]) -> Path:
     InconsistentInputError
         If a field is not of its declared type or holds NaN or infinity; nothing is written then.
     """
-    tree, arrays = encode(result, FormResult)
+    tree, arrays = encode(result, type(result))
     archive = _archive(arrays)
     document = {
-        "format": FORMAT,
+        "format": FORMATS[type(result)],
         "version": VERSION,
         "arrays": _stated(archive),
         "result": tree,
@@ -69,30 +75,32 @@ def save_result(result: FormResult, folder: str | os.PathLike[str]) -> Path:
     return folder / JSON_NAME
 
 
-def load_result(path: str | os.PathLike[str]) -> FormResult:
+def load_result(path: str | os.PathLike[str], kind: type[Result] = FormResult) -> Result:
     """Read a result that `save_result` wrote.
 
     Parameters
     ----------
     path : path
         The folder, or the JSON file within it.
+    kind : type
+        What is read: a `FormResult` or a `StructureForm`.
 
     Returns
     -------
-    FormResult
+    FormResult or StructureForm
         Equal to what was saved, to the last bit; arrays are read-only.
 
     Raises
     ------
     InconsistentInputError
-        If a file is missing, damaged, of another program or of a newer version.
+        If a file is missing, damaged, of another kind, of another program or of a newer version.
     """
     path = Path(path)
     file = path / JSON_NAME if path.is_dir() else path
-    document = _read_document(file)
+    document = _read_document(file, FORMATS[kind])
     arrays = _read_arrays(file.parent / ARRAYS_NAME, _field(document, "arrays", file))
     try:
-        return decode(_field(document, "result", file), FormResult, arrays)
+        return decode(_field(document, "result", file), kind, arrays)
     except InconsistentInputError as error:
         raise InconsistentInputError(f"{file} cannot be used: {error}. Solve the line again") from error
 
@@ -113,13 +121,13 @@ def _archive(arrays: Arrays) -> bytes:
     return buffer.getvalue()
 
 
-def _read_document(file: Path) -> dict[str, Any]:
+def _read_document(file: Path, expected: str) -> dict[str, Any]:
     try:
         document: Any = json.loads(_read_bytes(file), parse_float=_finite, parse_constant=_finite)
     except (ValueError, RecursionError) as error:
         raise InconsistentInputError(f"{file} is damaged or not a JSON file: {error}") from error
-    if not isinstance(document, dict) or cast(dict[str, Any], document).get("format") != FORMAT:
-        raise InconsistentInputError(f"{file} is not a {FORMAT}")
+    if not isinstance(document, dict) or cast(dict[str, Any], document).get("format") != expected:
+        raise InconsistentInputError(f"{file} is not a {expected}")
     document = cast(dict[str, Any], document)
     version = document.get("version")
     if not isinstance(version, int) or version < 1:
