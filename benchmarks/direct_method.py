@@ -10,7 +10,7 @@ import os
 import platform
 import statistics
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from importlib.util import find_spec
 from pathlib import Path
 from time import perf_counter
@@ -19,16 +19,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from catenaria.discretise.from_line import contact_wire_setup, messenger_wire_setup
-from catenaria.discretise.guess import guess_equilibrium
 from catenaria.discretise.mesh import Grading
-from catenaria.discretise.wire_model import build_wire_model
-from catenaria.discretise.wire_setup import WireSetup
 from catenaria.formfinding.coupled import find_coupled_form
-from catenaria.formfinding.direct import statics
-from catenaria.formfinding.static_problem import find_rest
-from catenaria.formfinding.third_step import Rest, clamp_height, dropper_schedule, foot_force
+from catenaria.formfinding.direct import find_wire
+from catenaria.formfinding.refusals import dropper_names
+from catenaria.formfinding.third_step import dropper_schedule
 from catenaria.line import Line, load_line
-from catenaria.mechanics.loads.gravity import Ramp
 from catenaria.workflow import solve
 
 FloatArray = NDArray[np.float64]
@@ -52,17 +48,13 @@ class Found:
 
 def core(line: Line) -> Found:
     """Find the lengths and nothing else: models, guesses and Newton's method for both wires, third step."""
-    contact, below = _wire(contact_wire_setup(line))
-    messenger, above = _wire(messenger_wire_setup(line, foot_force(contact), clamp_height(contact)))
-    length = dropper_schedule(line, contact, messenger).unstressed_length
-    return Found(length, contact.z.size + messenger.z.size, f"{below} + {above}")
-
-
-def _wire(setup: WireSetup) -> tuple[Rest, int]:
-    model = build_wire_model(replace(setup, gravity_ramp=Ramp(0.0)))
-    z = guess_equilibrium(model)
-    root = find_rest(statics(model.system, z), z)
-    return Rest(model, 0.0, root.y, (0.0, 0.0)), root.corrections.size
+    names = dropper_names(line)
+    contact = find_wire(contact_wire_setup(line), names)
+    below = contact.clamped
+    messenger = find_wire(messenger_wire_setup(line, below.lift, below.height), names)
+    length = dropper_schedule(line, below, messenger.clamped).unstressed_length
+    iterations = f"{contact.work.steps} + {messenger.work.steps}"
+    return Found(length, contact.z.size + messenger.z.size, iterations)
 
 
 def coupled(line: Line) -> Found:
@@ -73,7 +65,7 @@ def coupled(line: Line) -> Found:
 
 def complete(line: Line) -> Found:
     """Find the form as users do: with tables and audit."""
-    result = solve(line, method="direct")
+    result = solve(line, method="direct", rebuild="none")
     unknowns = sum(work.unknowns for work in result.counters)
     steps = " + ".join(str(work.steps) for work in result.counters)
     return Found(result.droppers.unstressed_length, unknowns, steps)

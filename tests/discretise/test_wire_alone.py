@@ -15,8 +15,7 @@ from catenaria.discretise.guess import guess_equilibrium
 from catenaria.discretise.wire_alone import build_wire_alone
 from catenaria.discretise.wire_model import build_wire_model
 from catenaria.discretise.wire_setup import WireSetup
-from catenaria.formfinding.direct import statics
-from catenaria.formfinding.static_problem import find_rest
+from catenaria.formfinding.static_problem import find_rest, statics
 from catenaria.line import Line
 from catenaria.mechanics.loads.gravity import Ramp
 

@@ -14,8 +14,7 @@ from numpy.typing import NDArray
 from catenaria.discretise.from_line import contact_wire_setup
 from catenaria.discretise.guess import guess_equilibrium
 from catenaria.discretise.wire_model import WireModel, build_wire_model
-from catenaria.formfinding.direct import statics
-from catenaria.formfinding.static_problem import find_rest
+from catenaria.formfinding.static_problem import find_rest, statics
 from catenaria.line import Line
 from catenaria.mechanics.loads.gravity import Gravity, Ramp
 from catenaria.mechanics.state import State

@@ -12,9 +12,8 @@ from catenaria.catenary.green_bar import stretch
 from catenaria.discretise.from_line import contact_wire_setup
 from catenaria.discretise.wire_model import WireModel, build_wire_model
 from catenaria.errors import InconsistentInputError, InfeasibleError
-from catenaria.formfinding.direct import statics
 from catenaria.formfinding.natural_frequencies import Modes, natural_frequencies
-from catenaria.formfinding.static_problem import find_rest
+from catenaria.formfinding.static_problem import find_rest, statics
 from catenaria.line import Line
 from catenaria.mechanics.chain import Chain, Section
 from catenaria.mechanics.elements.cable import CableElements

@@ -44,8 +44,9 @@ def check_comes_back(line: Line, result: FormResult) -> None:
     assert relaxed.findings() == ()
     np.testing.assert_allclose(relaxed.height.value, static.height.value, atol=2e-6)
     np.testing.assert_allclose(relaxed.messenger_height.value, static.messenger_height.value, atol=2e-6)
-    np.testing.assert_allclose(relaxed.force.value, static.force.value, atol=1e-2)
-    np.testing.assert_allclose(relaxed.tension.value, static.tension.value, atol=1e-2)
+    # 12 km along the track, forces of 3 mN a node are round-off, and add up along a wire
+    np.testing.assert_allclose(relaxed.force.value, static.force.value, atol=0.03)
+    np.testing.assert_allclose(relaxed.tension.value, static.tension.value, atol=0.03)
 
 
 def test_it_comes_back(short: Line, found: FormResult) -> None:

@@ -75,7 +75,7 @@ def test_spans_are_named_and_the_error_carries_what_was_found(vary: Vary) -> Non
         solve(vary(line))
     partial = caught.value.partial
     assert isinstance(partial, tuple)
-    assert partial[0].model.setup.name == "contact wire"
+    assert partial[0].setup.name == "contact wire"
     assert np.isfinite(partial[0].z).all()
     found = re.search(wanted, str(caught.value))
     assert found is not None

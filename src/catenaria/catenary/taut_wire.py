@@ -74,7 +74,7 @@ class TautWire:
     >>> round(float(wire.height(np.array([32.5]))[0]), 4)
     -0.5281
     >>> round(1e3 * float(wire.arc_excess(np.array([65.0]))[0]), 3)  # mm
-    11.443
+    11.441
     """
 
     x: FloatArray
@@ -104,13 +104,11 @@ class TautWire:
         at, height = supports
         x = at if loads is None else np.concatenate((at, loads[0]))
         order = np.argsort(x, kind="stable")
-        string = cls(x[order], np.zeros_like(x), H, w, EJ)
-        is_support = order < at.size
-        raised = height
-        for _ in range(_CORRECTIONS + 1):
-            z, _ = taut_string(string.x, (at, raised), H, w, loads)
-            string = cls(string.x, z, H, w, EJ)
+        x, is_support = x[order], order < at.size
+        string = cls(x, _string_height(x, (at, height), H, w, loads), H, w, EJ)
+        for _ in range(_CORRECTIONS if EJ > 0.0 else 0):
             raised = height - string._rounding[is_support]
+            string = cls(x, _string_height(x, (at, raised), H, w, loads), H, w, EJ)
         return string
 
     @cached_property
@@ -176,12 +174,20 @@ class TautWire:
     def arc_excess(self, x: FloatArray) -> FloatArray:
         """Return how much longer than its chord the arc from the start to x is [m], shape (n,)."""
         bay, d, behind, ahead = self._near(x)
+        start, curvature = self._bays.slope[bay], self._bays.curvature[bay]
+        return (
+            self._excess_before[bay]
+            + _parabola(start, start + curvature * d, d)
+            + (self._layers(bay, behind, ahead))
+        )
+
+    @cached_property
+    def _excess_before(self) -> FloatArray:
+        """What all bays before each bay add to the excess [m]."""
         own, every = self._bays, np.arange(self.x.size + 1)
         gone, full = np.zeros(every.size), np.ones(every.size)
         whole = _parabola(own.slope, own.slope_ahead, own.length) + self._layers(every, gone, full)
-        before = np.concatenate(([0.0], np.cumsum(whole)[:-1]))
-        partial = _parabola(own.slope[bay], own.slope[bay] + own.curvature[bay] * d, d)
-        return before[bay] + partial + self._layers(bay, behind, ahead)
+        return np.concatenate(([0.0], np.cumsum(whole)[:-1]))
 
     def _layers(self, bay: IntArray, behind: FloatArray, ahead: FloatArray) -> FloatArray:
         """Return the share of the roundings in the excess, from the start of a bay to a point in it [m]."""
@@ -190,6 +196,11 @@ class TautWire:
         from_left = 0.0625 * left**2 * (1.0 - behind**2) - 0.5 * left * own.slope[bay] * (1.0 - behind)
         from_right = 0.0625 * right**2 * ahead**2 + 0.5 * right * own.slope_ahead[bay] * ahead
         return length[bay] * from_left + length[bay + 1] * from_right
+
+
+def _string_height(x: FloatArray, supports: Points, H: float, w: float, loads: Points | None) -> FloatArray:
+    """Return the heights of a string at its supports and loads, which are at x [m]."""
+    return supports[1] if loads is None else taut_string(x, supports, H, w, loads)[0]
 
 
 def _padded(values: FloatArray) -> FloatArray:

@@ -111,6 +111,13 @@ class HungWire:
         return Controls(self.pull, measure, target, tension.law, ramp, Ramp(0.0))
 
 
+def copy_wire(target: HungWire, source: HungWire, z_source: FloatArray, z_target: FloatArray) -> None:
+    """Write the state of a wire in one system into the unknowns of another system with the same mesh."""
+    for name in ("support_s", "support_force", "end_force", "clamp_s", "pull"):
+        z_target[getattr(target, name)] = z_source[getattr(source, name)]
+    z_target[target.wire.nodes] = z_source[source.wire.nodes]
+
+
 def _straight_wire(setup: WireSetup, tensioned: TensionedWire, unknowns: UnknownsBuilder) -> Chain:
     first, last = setup.support_x[0], setup.support_x[-1]
     centres = tensioned.material(np.concatenate((setup.support_x, setup.droppers.x)))

@@ -13,7 +13,7 @@ from catenaria.discretise.wire_setup import WireSetup
 
 FloatArray = NDArray[np.float64]
 
-_PASSES = 3  # of a fixed point that gains three digits in each
+_PASSES = 2  # of a fixed point that gains three digits in each
 
 
 @dataclass(frozen=True)
@@ -73,7 +73,7 @@ def _shape(setup: WireSetup, ends: FloatArray, w: float) -> TautWire:
         height = np.concatenate((np.full(setup.support_x.size + 2, setup.height), droppers.target))
         order = np.argsort(x, kind="stable")
         return TautWire.held((x[order], height[order]), H, w, EJ)
-    light = TautWire.held(_held(setup, ends), H, w, EJ, (droppers.x, droppers.target))
+    light = TautWire.held(_held(setup, ends), H, w, 0.0, (droppers.x, droppers.target))
     shorter = 0.5 * light.arc_excess(ends[1:])
     held = _held(setup, ends + np.concatenate((shorter, -shorter)))
     return TautWire.held(held, _horizontal(setup, light), w, EJ, _with_droppers(setup, light))
@@ -97,7 +97,7 @@ def _horizontal(setup: WireSetup, shape: TautWire) -> float:
 
 
 def _with_droppers(setup: WireSetup, shape: TautWire) -> Points:
-    """Return the loads of the messenger: T_cd and the weight of droppers up to that shape, eq. (23)."""
+    """Return the messenger's loads: T_cd and the weight of droppers up to that shape, eq. (23)."""
     droppers = setup.droppers
     length = shape.height(droppers.x) - droppers.foot_height
     weight = setup.g * (droppers.section.rhoA * length + droppers.clamps_mass)

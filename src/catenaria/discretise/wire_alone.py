@@ -38,11 +38,19 @@ class WireAlone:
         Vertical forces of the wire on droppers and clamps [N].
     system : System
         Tension and heights (contact wire) or dropper forces (messenger) are targets.
+    dropper_targets : Targets
+        Those of the droppers.
     """
 
     hung: HungWire
     clamp_force: IntArray
     system: System
+    dropper_targets: Targets
+
+    def dropper_error(self, z: FloatArray) -> FloatArray:
+        """Return by how much heights [m] or forces [N] miss their targets, shape (n,)."""
+        targets = self.dropper_targets.relocate(z) or self.dropper_targets
+        return targets.measure.value(0.0, z) - targets.target
 
     def guess(self) -> FloatArray:
         """Return unknowns near the equilibrium, shape (n,)."""
@@ -65,8 +73,9 @@ def build_wire_alone(setup: WireSetup) -> WireAlone:
     supports, ends = hung.joints(table.start)
     points = HungPoints(hung.wire, hung.clamp_s, force, hung.wire.locate(table.start[hung.clamp_s]), x)
     tension = Targets.of(hung.tension_control(supports, ends))
-    parts = (elements, gravity, supports, ends, points, tension, _dropper_targets(setup, points))
-    return WireAlone(hung, force, System(table, parts))
+    targets = _dropper_targets(setup, points)
+    parts = (elements, gravity, supports, ends, points, tension, targets)
+    return WireAlone(hung, force, System(table, parts), targets)
 
 
 def _dropper_targets(setup: WireSetup, points: HungPoints) -> Targets:

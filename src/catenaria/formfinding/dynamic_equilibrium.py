@@ -20,15 +20,10 @@ from catenaria.discretise.wire_model import WireModel, build_wire_model
 from catenaria.discretise.wire_setup import WireSetup
 from catenaria.formfinding.controlled_motion import Motion, move, system_of, tolerances
 from catenaria.formfinding.progress import Listener, Progress
+from catenaria.formfinding.refusals import refuse_compression
+from catenaria.formfinding.rest import Rest
 from catenaria.formfinding.settling import Settled, largest_error
-from catenaria.formfinding.third_step import (
-    Rest,
-    clamp_height,
-    foot_force,
-    gather,
-    refuse_compression,
-    support_names,
-)
+from catenaria.formfinding.third_step import gather, support_names
 from catenaria.line import Line
 from catenaria.results.form import Counters, FormResult, History
 from catenaria.solvers.outcome import Options, Step
@@ -74,9 +69,10 @@ class DynamicEquilibrium:
         """
         begin = perf_counter()
         contact = self._step(line, contact_wire_setup(line), 1, start, begin)
-        force, height = foot_force(_rest(contact)), clamp_height(_rest(contact))
-        refuse_compression(line, force, _rest(contact))
-        messenger = self._step(line, messenger_wire_setup(line, force, height), 2, start, begin)
+        below = _rest(contact).clamped
+        refuse_compression(line, below)
+        setup = messenger_wire_setup(line, below.lift, below.height)
+        messenger = self._step(line, setup, 2, start, begin)
         self._tell(Progress("lengths", 3, _STAGES, elapsed=perf_counter() - begin))
         motions = (contact, messenger)
         return gather(

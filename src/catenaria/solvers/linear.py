@@ -130,10 +130,9 @@ def factorise(
 
 def _nonzero(matrix: SparseMatrix) -> SparseMatrix:
     """Return the matrix without stored zeros: in a plane problem these would tie the third direction in."""
-    stored = matrix.data != 0.0
-    columns = np.concatenate(([0], np.cumsum(stored)))[matrix.indptr]
-    parts = (matrix.data[stored], matrix.indices[stored], columns.astype(matrix.indptr.dtype))
-    return cast("SparseMatrix", csc_array(parts, shape=(columns.size - 1, columns.size - 1)))
+    compact = cast("Any", matrix).copy()
+    compact.eliminate_zeros()
+    return compact
 
 
 def _scale(matrix: SparseMatrix, scaling: Scaling) -> SparseMatrix:

@@ -141,11 +141,11 @@ def solve_by_steps(
     options = options or SteppingOptions()
     held = problem.residual(y)
     if not np.isfinite(held).all():
-        root = Root(y, False, np.empty(0), np.empty(0), problem)
+        root = Root(y, False, np.empty(0), np.empty(0), 0, problem)
         raise _failure(
             Released(root, np.empty(0), 0, 0), "the starting guess has a residual that is not finite"
         )
-    start = Root(np.array(y, dtype=np.float64), True, np.empty(0), np.empty(0), problem)
+    start = Root(np.array(y, dtype=np.float64), True, np.empty(0), np.empty(0), 0, problem)
     return _release(Released(start, np.empty(0), 0, 0), held, options)
 
 

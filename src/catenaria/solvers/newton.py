@@ -14,6 +14,9 @@ from catenaria.solvers.problem import AlgebraicProblem, FloatArray, SparseMatrix
 Inspect = Callable[[SparseMatrix, Factorisation], None]
 
 
+_CONTRACTION = 0.05  # below which simplified corrections cost less than a new factorisation saves
+
+
 @dataclass(frozen=True)
 class NewtonOptions:
     """Limits of a Newton iteration.
@@ -47,6 +50,8 @@ class Root:
         Scaled maximum norm of the full corrections, convergence at 1.
     damping : FloatArray, shape (iterations,)
         Fraction of each correction that was applied.
+    simplified : int
+        Number of further corrections with factors that were kept.
     problem : AlgebraicProblem
         With the discrete state that fits y.
     """
@@ -55,6 +60,7 @@ class Root:
     converged: bool
     corrections: FloatArray
     damping: FloatArray
+    simplified: int
     problem: AlgebraicProblem
 
 
@@ -64,10 +70,12 @@ class _Iterate:
     problem: AlgebraicProblem
     corrections: tuple[float, ...] = ()
     damping: tuple[float, ...] = ()
+    simplified: int = 0
     converged: bool = False
 
     def root(self) -> Root:
-        return Root(self.y, self.converged, np.array(self.corrections), np.array(self.damping), self.problem)
+        corrections, damping = np.array(self.corrections), np.array(self.damping)
+        return Root(self.y, self.converged, corrections, damping, self.simplified, self.problem)
 
 
 def solve_newton(
@@ -104,7 +112,8 @@ def solve_newton(
     With the correction d = -J^{-1} f(y) a damped iterate y + a d is accepted if the simplified correction
     dbar = -J^{-1} f(y + a d), which costs a residual and a triangular solve, is smaller than d by the factor
     1 - a/4. This test does not depend on how the rows of f are scaled. The next a is Deuflhard's estimate
-    a^2 |d| / (2 |dbar - (1 - a) d|).
+    a^2 |d| / (2 |dbar - (1 - a) d|). Where a full correction leaves less than a twentieth of itself, the
+    iteration goes on with the same factors as long as they do that.
 
     Examples
     --------
@@ -165,10 +174,30 @@ def _iterate(iterate: _Iterate, options: NewtonOptions, inspect: Inspect | None)
         if reduced <= 1.0 and damping == 1.0:
             return _next(iterate, trial + simplified, size, damping, True)
         if reduced <= (1.0 - 0.25 * damping) * size:
-            return _next(iterate, trial, size, damping, False)
+            accepted = _next(iterate, trial, size, damping, False)
+            if damping == 1.0 and reduced <= _CONTRACTION * size:
+                return _simplified(accepted, factorisation, simplified, reduced)
+            return accepted
         estimate = _estimate(problem, correction, simplified, damping)
         damping *= min(max(estimate / damping, 0.1), 0.5)
     raise _failure(iterate, "Newton's method finds no damping that brings it nearer to a root")
+
+
+def _simplified(
+    iterate: _Iterate, factorisation: Factorisation, correction: FloatArray, size: float
+) -> _Iterate:
+    """Go on with the same factors while they contract so well that new ones would not pay."""
+    problem, y, count = iterate.problem, iterate.y, iterate.simplified
+    while True:
+        y, count = y + correction, count + 1
+        problem = problem.reselect(y) or problem
+        following = _correction(problem, factorisation, y)
+        reduced = _size(problem, following)
+        if reduced <= 1.0:
+            return replace(iterate, y=y + following, problem=problem, simplified=count + 1, converged=True)
+        if not reduced <= _CONTRACTION * size:
+            return replace(iterate, y=y, problem=problem, simplified=count)
+        correction, size = following, reduced
 
 
 def _correction(problem: AlgebraicProblem, factorisation: Factorisation, y: FloatArray) -> FloatArray:
@@ -190,7 +219,8 @@ def _estimate(
 
 
 def _next(iterate: _Iterate, y: FloatArray, size: float, damping: float, converged: bool) -> _Iterate:
-    return _Iterate(y, iterate.problem, (*iterate.corrections, size), (*iterate.damping, damping), converged)
+    corrections, dampings = (*iterate.corrections, size), (*iterate.damping, damping)
+    return _Iterate(y, iterate.problem, corrections, dampings, iterate.simplified, converged)
 
 
 def _failure(iterate: _Iterate, reason: str) -> NotConvergedError:
