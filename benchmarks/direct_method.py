@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from catenaria.discretise.from_line import contact_wire_setup, messenger_wire_setup
 from catenaria.discretise.mesh import Grading
 from catenaria.formfinding.coupled import find_coupled_form
-from catenaria.formfinding.direct import find_wire
+from catenaria.formfinding.find_wire import find_wire
 from catenaria.formfinding.refusals import dropper_names
 from catenaria.formfinding.third_step import dropper_schedule
 from catenaria.line import Line, load_line

@@ -8,8 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import pairwise
-from math import ceil
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +15,8 @@ from numpy.typing import NDArray
 from catenaria.errors import InconsistentInputError
 
 FloatArray = NDArray[np.float64]
+
+_REACH = 0.475  # of the way to the next centre, up to which fine distances go
 
 
 @dataclass(frozen=True)
@@ -73,27 +73,24 @@ def graded_knots(length: float, centres: Sequence[float] | FloatArray, grading: 
         raise InconsistentInputError("a support or clamp lies beyond the end of its wire")
     if grading.even is not None:
         return np.linspace(0.0, length, grading.even * grading.refine + 1)
+    return _divided(_graded(length, middle, np.asarray(grading.fine)), grading)
+
+
+def _graded(length: float, middle: FloatArray, fine: FloatArray) -> FloatArray:
+    """Return ends, centres and fine distances beside the centres, which end before the next one is nearer."""
     primary = np.unique(np.concatenate(([0.0], middle, [length])))
-    knots = [0.0]
-    refined = np.isin(primary, middle).tolist()
-    for (left, fine_left), (right, fine_right) in pairwise(zip(primary.tolist(), refined, strict=True)):
-        knots.extend(_between(left, right, fine_left, fine_right, grading))
-    return np.array(knots)
+    left, right = primary[:-1, None], primary[1:, None]
+    fits, refined = fine < _REACH * (right - left), np.isin(primary, middle)
+    behind = (left + fine)[fits & refined[:-1, None]]
+    before = (right - fine)[fits & refined[1:, None]]
+    return np.sort(np.concatenate((primary, behind, before)))
 
 
-def _between(left: float, right: float, fine_left: bool, fine_right: bool, grading: Grading) -> list[float]:
-    """Return the nodes after `left` up to `right`; fine distances end before the middle."""
-    half = 0.5 * (right - left)
-    fine = [distance for distance in sorted(grading.fine) if distance < 0.95 * half]
-    nodes = [
-        left,
-        *(left + d for d in fine if fine_left),
-        *(right - d for d in reversed(fine) if fine_right),
-        right,
-    ]
-    result: list[float] = []
-    for a, b in pairwise(nodes):
-        count = grading.refine * max(1, ceil((b - a) / grading.largest - 1e-9))
-        result.extend(a + (b - a) * k / count for k in range(1, count))
-        result.append(b)
-    return result
+def _divided(nodes: FloatArray, grading: Grading) -> FloatArray:
+    """Return the nodes with equal parts between them."""
+    gap = np.diff(nodes)
+    count = grading.refine * np.maximum(1, np.ceil(gap / grading.largest - 1e-9).astype(np.int64))
+    first = np.cumsum(count) - count
+    part = np.arange(int(count.sum())) - np.repeat(first, count)
+    knots = np.repeat(nodes[:-1], count) + np.repeat(gap / count, count) * part
+    return np.concatenate((knots, nodes[-1:]))

@@ -88,8 +88,8 @@ def _held(setup: WireSetup, ends: FloatArray) -> Points:
 def _horizontal(setup: WireSetup, shape: TautWire) -> float:
     """Return the mean horizontal tension of all spans [N].
 
-    A frictionless support keeps the tension H sqrt(1 + z'^2) and thereby takes H (z'^2 behind it - z'^2 before
-    it)/2 from H.
+    A frictionless support keeps the tension H sqrt(1 + z'^2) and thereby takes half of H (z'^2 behind it -
+    z'^2 before it) from H.
     """
     before, behind = shape.kink_slopes(setup.support_x[:-1])
     taken = np.cumsum(0.5 * (behind**2 - before**2))

@@ -103,5 +103,5 @@ def _form(model: LineModel, root: Root) -> CoupledForm:
     z = root.y
     on_contact, on_messenger = model.droppers(z, clamped=False).loads(z)
     return CoupledForm(
-        model, z, _distance(model, z), z[model.length], on_contact, on_messenger, root.corrections.size
+        model, z, _distance(model, z), z[model.length], on_contact, on_messenger, root.iterations
     )

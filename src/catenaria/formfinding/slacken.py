@@ -56,7 +56,7 @@ class Slackened:
     @property
     def iterations(self) -> int:
         """Newton iterations of the start and of all steps."""
-        return self.start.corrections.size + self.released.iterations
+        return self.start.iterations + self.released.iterations
 
 
 def slacken(hung: W, system: System, guess: Callable[[W], FloatArray]) -> Slackened:

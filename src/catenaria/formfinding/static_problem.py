@@ -14,6 +14,7 @@ from catenaria.formfinding.count import check_count
 from catenaria.formfinding.free_motion import Names, ParameterCheck, refuse_free_motion
 from catenaria.mechanics.controls.control import Controls
 from catenaria.mechanics.controls.target import Targets
+from catenaria.mechanics.elements.cable import CableElements
 from catenaria.mechanics.state import State
 from catenaria.mechanics.system import System
 from catenaria.mechanics.unknowns import Kind
@@ -75,8 +76,17 @@ def statics(system: System, z: FloatArray) -> System:
 
 
 def static_problem(system: System) -> StaticProblem:
-    """Return the problem with the tolerances of lines: nanometres and 0.01 mN."""
-    return StaticProblem(system, _CORRECTION, _FORCE)
+    """Return the problem with the tolerances of lines: nanometres and 0.01 mN, or what rounding leaves."""
+    return StaticProblem(system, _CORRECTION, max(_FORCE, 2.0 * _rounding(system)))
+
+
+def _rounding(system: System) -> float:
+    """Return by how much the stiffest element's force changes with the last digit of a position [N]."""
+    cables = [part for part in system.contributions if isinstance(part, CableElements)]
+    stiffest = max((float(np.max(part.EA / part.L)) for part in cables), default=0.0)
+    unknowns = system.unknowns
+    positions = unknowns.start[unknowns.where(Kind.POSITION)]
+    return float(np.finfo(np.float64).eps * np.abs(positions).max(initial=0.0)) * stiffest
 
 
 def find_rest(system: System, z: FloatArray, max_iterations: int = 30, names: Names = ()) -> Root:

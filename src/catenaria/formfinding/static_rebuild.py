@@ -54,7 +54,7 @@ def _rest(model: LineModel, z: FloatArray) -> tuple[FloatArray, int]:
     iterations = 0
     for may_push in (True, False):  # bars that cannot push may be slack, and without stiffness, at the start
         root = find_rest(model.as_built(z, may_push), z, _ITERATIONS)
-        z, iterations = root.y, iterations + root.corrections.size
+        z, iterations = root.y, iterations + root.iterations
     return z, iterations
 
 

@@ -80,7 +80,7 @@ def find_static_form(model: StructureModel) -> Found:
         z, count = model.start, 0
         if weightless is not None:
             root, _ = _rest(model, weightless, z)
-            z, count = root.y, root.corrections.size
+            z, count = root.y, root.iterations
         system = statics(model.system, z)
         root, steps = _rest(model, system, z)
     except (NotConvergedError, InfeasibleError) as error:
@@ -89,7 +89,7 @@ def find_static_form(model: StructureModel) -> Found:
         reason = f"{model.name}: {getattr(error, 'reason', error)}"
         raise NotConvergedError(reason, _ADVICE, error.partial) from error
     _refuse_loose_parameters(root, names)
-    return Found(root.y, count + root.corrections.size, steps)
+    return Found(root.y, count + root.iterations, steps)
 
 
 def names_of(model: StructureModel) -> Names:

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from catenaria.errors import InconsistentInputError, InfeasibleError
-from catenaria.mechanics.kernels.points import chain_points
+from catenaria.mechanics.kernels.points import chain_points, elements_of
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -94,14 +94,13 @@ class Chain:
         InfeasibleError
             If a point has slid off the end of the cable.
         """
-        if not (np.all(s >= self.knots[0]) and np.all(s <= self.knots[-1])):
+        found = elements_of(self.knots, s, element, _OVERLAP)
+        if found.min(initial=0) < 0:
             raise InfeasibleError(
                 f"a cable of {self.knots[-1]:.6g} m has slid out of a joint, which would be at {s.min():.6g} "
                 f"to {s.max():.6g} m of it; a longer tail or another tension would keep it in"
             )
-        overlap = _OVERLAP * (self.knots[element + 1] - self.knots[element])
-        stays = (s >= self.knots[element] - overlap) & (s <= self.knots[element + 1] + overlap)
-        return np.where(stays, element, self.locate(s))
+        return found
 
     def evaluate(self, z: FloatArray, s: FloatArray, element: IntArray | None = None) -> Points:
         """Return shape functions, r, r' and r'' at material coordinates s, shape (n,)."""

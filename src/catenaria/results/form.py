@@ -327,6 +327,9 @@ class FormResult:
         What an audit of the other fields found; empty until there was one.
     rebuilt : Rebuilt
         Where a line built from the found lengths came to rest; empty until there was one.
+    physics : str
+        What the wires are, which an audit must know: ``bending`` (eqs. (7)-(10), with `stages`) or ``string``
+        (no bending stiffness, no `stages`; profiles are given behind joints, where forces jump).
     """
 
     name: str
@@ -343,3 +346,4 @@ class FormResult:
     versions: dict[str, str]
     audit: Audit = NOT_AUDITED
     rebuilt: Rebuilt = NOT_REBUILT
+    physics: str = "bending"

@@ -163,11 +163,9 @@ def _release(released: Released, held: FloatArray, options: SteppingOptions) -> 
             if step < options.smallest:
                 raise _failure(released, f"load stepping is stuck; {error}") from error
             continue
-        work = root.corrections.size
-        released = Released(
-            root, np.append(released.parts, part), released.refused, released.iterations + work
-        )
-        step *= 2.0 if work <= options.quick else 1.0
+        iterations = released.iterations + root.iterations
+        released = Released(root, np.append(released.parts, part), released.refused, iterations)
+        step *= 2.0 if root.corrections.size <= options.quick else 1.0
     return released
 
 

@@ -14,7 +14,7 @@ from catenaria.solvers.problem import AlgebraicProblem, FloatArray, SparseMatrix
 Inspect = Callable[[SparseMatrix, Factorisation], None]
 
 
-_CONTRACTION = 0.05  # below which simplified corrections cost less than a new factorisation saves
+_STEPS = 4  # simplified corrections that cost as much as a Jacobian and its factors
 
 
 @dataclass(frozen=True)
@@ -62,6 +62,11 @@ class Root:
     damping: FloatArray
     simplified: int
     problem: AlgebraicProblem
+
+    @property
+    def iterations(self) -> int:
+        """Number of corrections, with new factors and with kept ones."""
+        return self.corrections.size + self.simplified
 
 
 @dataclass(frozen=True)
@@ -112,8 +117,8 @@ def solve_newton(
     With the correction d = -J^{-1} f(y) a damped iterate y + a d is accepted if the simplified correction
     dbar = -J^{-1} f(y + a d), which costs a residual and a triangular solve, is smaller than d by the factor
     1 - a/4. This test does not depend on how the rows of f are scaled. The next a is Deuflhard's estimate
-    a^2 |d| / (2 |dbar - (1 - a) d|). Where a full correction leaves less than a twentieth of itself, the
-    iteration goes on with the same factors as long as they do that.
+    a^2 |d| / (2 |dbar - (1 - a) d|). Where a full correction contracts so well that four more with the
+    same factors would reach convergence, the iteration goes on with these.
 
     Examples
     --------
@@ -175,7 +180,7 @@ def _iterate(iterate: _Iterate, options: NewtonOptions, inspect: Inspect | None)
             return _next(iterate, trial + simplified, size, damping, True)
         if reduced <= (1.0 - 0.25 * damping) * size:
             accepted = _next(iterate, trial, size, damping, False)
-            if damping == 1.0 and reduced <= _CONTRACTION * size:
+            if damping == 1.0 and _pays(reduced, size):
                 return _simplified(accepted, factorisation, simplified, reduced)
             return accepted
         estimate = _estimate(problem, correction, simplified, damping)
@@ -186,18 +191,27 @@ def _iterate(iterate: _Iterate, options: NewtonOptions, inspect: Inspect | None)
 def _simplified(
     iterate: _Iterate, factorisation: Factorisation, correction: FloatArray, size: float
 ) -> _Iterate:
-    """Go on with the same factors while they contract so well that new ones would not pay."""
+    """Go on with the same factors while they contract so well that new ones would not pay.
+
+    A correction after a change of the discrete state contains what that has changed, and is not judged by it.
+    """
     problem, y, count = iterate.problem, iterate.y, iterate.simplified
     while True:
         y, count = y + correction, count + 1
-        problem = problem.reselect(y) or problem
+        selected = problem.reselect(y)
+        problem = selected or problem
         following = _correction(problem, factorisation, y)
         reduced = _size(problem, following)
         if reduced <= 1.0:
             return replace(iterate, y=y + following, problem=problem, simplified=count + 1, converged=True)
-        if not reduced <= _CONTRACTION * size:
+        if not (_pays(reduced, size) if selected is None else reduced <= size):
             return replace(iterate, y=y, problem=problem, simplified=count)
         correction, size = following, reduced
+
+
+def _pays(reduced: float, size: float) -> bool:
+    """Return whether the same contraction again, a few times over, would reach convergence."""
+    return reduced * (reduced / size) ** _STEPS <= 1.0
 
 
 def _correction(problem: AlgebraicProblem, factorisation: Factorisation, y: FloatArray) -> FloatArray:

@@ -15,6 +15,23 @@ IntArray = NDArray[np.int64]
 
 
 @compiled
+def elements_of(knots: FloatArray, s: FloatArray, element: IntArray, overlap: float) -> IntArray:
+    """Return the elements in which points are, -1 beyond the ends; each keeps its own within an overlap."""
+    found = np.empty_like(element)
+    for i in range(s.size):
+        e = element[i]
+        slack = overlap * (knots[e + 1] - knots[e])
+        if not (knots[0] <= s[i] <= knots[-1]):
+            found[i] = -1
+        elif knots[e] - slack <= s[i] <= knots[e + 1] + slack:
+            found[i] = e
+        else:
+            e = np.searchsorted(knots, s[i], side="right") - 1
+            found[i] = e if e < knots.size - 1 else knots.size - 2
+    return found
+
+
+@compiled
 def chain_points(
     z: FloatArray, nodes: IntArray, knots: FloatArray, s: FloatArray, element: IntArray
 ) -> tuple[IntArray, FloatArray, FloatArray, FloatArray]:

@@ -9,10 +9,19 @@ import numpy as np
 
 from catenaria.mechanics.kernels.cable import add_cable_forces, cable_energies, cable_stiffness
 from catenaria.mechanics.kernels.compress import compress, merge
-from catenaria.mechanics.kernels.points import chain_points
+from catenaria.mechanics.kernels.points import chain_points, elements_of
 from catenaria.mechanics.kernels.scatter import sum_into
 
-_KERNELS = (add_cable_forces, cable_energies, cable_stiffness, chain_points, compress, merge, sum_into)
+_KERNELS = (
+    add_cable_forces,
+    cable_energies,
+    cable_stiffness,
+    chain_points,
+    elements_of,
+    compress,
+    merge,
+    sum_into,
+)
 
 
 def need_compiling() -> bool:
@@ -36,6 +45,7 @@ def warm_up() -> None:
     cable_stiffness(z, dofs, one, one, one, B, B, one)
     cable_energies(z, dofs, one, one, one, B, B, one)
     first = np.zeros(1, dtype=np.int64)
+    elements_of(np.array([0.0, 1.0]), 0.5 * one, first, 0.0)
     chain_points(z, dofs.reshape(2, 6), np.array([0.0, 1.0]), 0.5 * one, first)
     _, indices, indptr = compress(first, first, 1)
     merge(indices, indptr, indices, indptr)
