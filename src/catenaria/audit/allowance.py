@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from catenaria.audit.free_wire import FreeWire
+from catenaria.audit.free_wire import FreeBody
 from catenaria.audit.lengths import TOLERANCE
 from catenaria.results.form import FormResult
 
@@ -28,14 +28,14 @@ class Allowance:
     force: FloatArray
 
 
-def allowance(result: FormResult, wires: tuple[FreeWire, FreeWire]) -> Allowance:
+def allowance(result: FormResult, wires: tuple[FreeBody, FreeBody]) -> Allowance:
     r"""Return what a method may leave of its targets.
 
     Parameters
     ----------
     result : FormResult
         Its controls state their dead bands; a control that is not there has none.
-    wires : tuple of FreeWire
+    wires : tuple of FreeBody
         Contact and messenger wire.
 
     Notes
@@ -57,7 +57,7 @@ def allowance(result: FormResult, wires: tuple[FreeWire, FreeWire]) -> Allowance
         return np.maximum(_DEFINITION * left, floor)
 
     contact, messenger = wires
-    slope = np.array([2.0 * wire.stated.conductor.EA / float(np.ptp(wire.curve.s)) for wire in wires])
+    slope = np.array([2.0 * wire.stated.conductor.EA / float(np.ptp(wire.end_s)) for wire in wires])
     force = max(contact.force_tolerance, messenger.force_tolerance)
     return Allowance(
         allowed([f"{wire.stated.name} tension" for wire in wires], slope, force),
@@ -74,7 +74,7 @@ def _stop_criteria(result: FormResult) -> tuple[float, float]:
     return float(settle["dead_bands"]), float(settle["remaining_travel"])
 
 
-def _string_stiffness(wire: FreeWire) -> FloatArray:
+def _string_stiffness(wire: FreeBody) -> FloatArray:
     """Return 2 T (1/l_1 + 1/l_2) at every dropper of a wire [N/m]."""
     joints = np.sort(wire.joint_s)
     after = np.searchsorted(joints, wire.clamp_s, side="right")

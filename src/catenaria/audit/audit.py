@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from catenaria.audit import equilibrium, internal_forces, lengths
+from catenaria.audit import equilibrium, internal_forces, lengths, strings
 from catenaria.audit.allowance import allowance
-from catenaria.audit.free_wire import free_wires
-from catenaria.audit.stated import read_inputs
+from catenaria.audit.free_wire import free_bodies, free_wires
+from catenaria.audit.stated import Stated, read_inputs
 from catenaria.audit.targets import target_checks
 from catenaria.audit.verdict import Check, conclude
+from catenaria.errors import InconsistentInputError
 from catenaria.results.audit import Audit
 from catenaria.results.form import FormResult
 
@@ -38,6 +39,9 @@ def audit_result(result: FormResult) -> Audit:
     Clenshaw-Curtis quadrature and differentiated by complex step. Equilibrium must hold to 1e-6 of the
     largest tension, lengths to 1e-7 m, targets to the bands that the result states.
 
+    The stated physics is the only parameter: wires whose `physics` is ``string`` must run in the direction
+    of the force that the sum of all forces and weights before a point leaves there.
+
     Not looked at: sags, smallest, largest and mean tensions, what the result keeps for a restart besides the
     wires' nodes, histories, counters.
 
@@ -51,6 +55,26 @@ def audit_result(result: FormResult) -> Audit:
 
 def _checks(result: FormResult) -> Iterator[Check]:
     stated = read_inputs(result.inputs)
+    if result.physics == "string":
+        return _checks_of_strings(result, stated)
+    if result.physics == "bending":
+        return _checks_of_wires(result, stated)
+    raise InconsistentInputError(f"wires are 'bending' or 'string', not {result.physics!r}")
+
+
+def _checks_of_strings(result: FormResult, stated: Stated) -> Iterator[Check]:
+    wires = free_bodies(result, stated)
+    allowed = allowance(result, wires)
+    for wire in wires:
+        yield from strings.wire_checks(wire, result.supports)
+    yield from equilibrium.dropper_checks(
+        result.droppers, stated.droppers, stated.gravity, allowed.force, wires[0].force_tolerance
+    )
+    yield from lengths.dropper_checks(wires, result.droppers, stated)
+    yield from target_checks(result, stated, wires, allowed)
+
+
+def _checks_of_wires(result: FormResult, stated: Stated) -> Iterator[Check]:
     wires = free_wires(result, stated)
     allowed = allowance(result, wires)
     tolerance = max(wire.force_tolerance for wire in wires)

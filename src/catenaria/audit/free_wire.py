@@ -12,7 +12,7 @@ from catenaria.audit.curve import Curve
 from catenaria.audit.energy import nodal_residual
 from catenaria.audit.stated import Stated, StatedWire
 from catenaria.errors import InconsistentInputError
-from catenaria.results.form import FormResult, WireForm
+from catenaria.results.form import FormResult, Stage, WireForm
 
 FloatArray = NDArray[np.float64]
 
@@ -22,8 +22,8 @@ _ROUNDING = 8.0  # units in the last place that the two positions of an element 
 
 
 @dataclass(frozen=True)
-class FreeWire:
-    """A wire of a result as a free body.
+class FreeBody:
+    """A wire of a result as a free body, whatever it is made of.
 
     Attributes
     ----------
@@ -31,8 +31,6 @@ class FreeWire:
         What the line file says of it.
     form : WireForm
         What the result says of it.
-    curve : Curve
-        Its configuration.
     support_s, clamp_s : FloatArray, shape (m,), (n,)
         Material coordinates at supports and droppers [m].
     support_force, clamp_force : FloatArray, shape (m, 3), (n, 3)
@@ -45,7 +43,6 @@ class FreeWire:
 
     stated: StatedWire
     form: WireForm
-    curve: Curve
     support_s: FloatArray
     support_force: FloatArray
     clamp_s: FloatArray
@@ -54,9 +51,14 @@ class FreeWire:
     largest_tension: float
 
     @property
+    def end_s(self) -> FloatArray:
+        """Material coordinates of start and end [m]."""
+        return self.form.profile.s[[0, -1]]
+
+    @property
     def joint_s(self) -> FloatArray:
         """Material coordinates of supports, droppers, start and end [m]."""
-        return np.concatenate((self.support_s, self.clamp_s, self.curve.s[[0, -1]]))
+        return np.concatenate((self.support_s, self.clamp_s, self.end_s))
 
     @property
     def joint_force(self) -> FloatArray:
@@ -72,21 +74,17 @@ class FreeWire:
 
     @property
     def force_tolerance(self) -> float:
-        """Force that may be missing to a balance [N].
+        """Force that may be missing to a balance [N]."""
+        return _RELATIVE * self.largest_tension
 
-        Notes
-        -----
-        Positions are known to half a unit in the last place, which a short stiff element turns into EA u/L:
-        some micronewtons near the origin of the chainage, 10 mN at 100 km of it.
-        """
-        unit = float(np.finfo(np.float64).eps * np.max(np.abs(self.curve.r)))
-        stiffest = float(self.stated.conductor.EA / self.curve.L.min())
-        return _RELATIVE * self.largest_tension + _ROUNDING * unit * stiffest
+    def position(self, s: FloatArray) -> FloatArray:
+        """Return where the points with the given material coordinates are, shape (n, 3) [m]."""
+        shape = self.form.profile
+        return np.column_stack([np.interp(s, shape.s, part) for part in (shape.x, shape.y, shape.z)])
 
-    @cached_property
-    def residual(self) -> FloatArray:
-        """Residual of every node: forces [N] and moments per slope [N m], shape (n, 2, 3)."""
-        return nodal_residual(self.curve, self.stated.conductor, self.gravity, self.joint_s, self.joint_force)
+    def strain_tension(self, s: FloatArray) -> FloatArray:
+        """Return N = EA eps of eq. (11) at material coordinates, as the profile states it [N]."""
+        return np.interp(s, self.form.profile.s, self.form.profile.strain_tension)
 
     def place(self, s: float) -> str:
         """Say between or at which joints a material coordinate is."""
@@ -100,10 +98,55 @@ class FreeWire:
 
 
 @dataclass(frozen=True)
+class FreeWire(FreeBody):
+    """A wire that bends, with the curve that its nodes describe.
+
+    Attributes
+    ----------
+    curve : Curve
+        Its configuration.
+    """
+
+    curve: Curve
+
+    @property
+    def end_s(self) -> FloatArray:
+        """Material coordinates of start and end [m]."""
+        return self.curve.s[[0, -1]]
+
+    @property
+    def force_tolerance(self) -> float:
+        """Force that may be missing to a balance [N].
+
+        Notes
+        -----
+        Positions are known to half a unit in the last place, which a short stiff element turns into EA u/L:
+        some micronewtons near the origin of the chainage, 10 mN at 100 km of it.
+        """
+        unit = float(np.finfo(np.float64).eps * np.max(np.abs(self.curve.r)))
+        stiffest = float(self.stated.conductor.EA / self.curve.L.min())
+        return super().force_tolerance + _ROUNDING * unit * stiffest
+
+    @cached_property
+    def residual(self) -> FloatArray:
+        """Residual of every node: forces [N] and moments per slope [N m], shape (n, 2, 3)."""
+        return nodal_residual(self.curve, self.stated.conductor, self.gravity, self.joint_s, self.joint_force)
+
+    def position(self, s: FloatArray) -> FloatArray:
+        """Return where the points with the given material coordinates are, shape (n, 3) [m]."""
+        return self.curve.at(s).r
+
+    def strain_tension(self, s: FloatArray) -> FloatArray:
+        """Return N = EA eps of eq. (11) at material coordinates [N]."""
+        r1 = self.curve.at(s).r1
+        return 0.5 * self.stated.conductor.EA * (np.sum(r1 * r1, axis=1) - 1.0)
+
+
+@dataclass(frozen=True)
 class Along:
     """Names of places along wires, made up when asked for."""
 
-    places: tuple[tuple[FreeWire, float], ...]
+    places: tuple[tuple[FreeBody, float], ...]
 
     def __getitem__(self, i: int, /) -> str:
         """Return the name of one place."""
@@ -119,30 +162,44 @@ def free_wires(result: FormResult, stated: Stated) -> tuple[FreeWire, FreeWire]:
     InconsistentInputError
         If the result does not have one entry for each wire, support and dropper of its line.
     """
-    droppers = result.droppers
-    if len(result.wires) != 2 or len(result.stages) != 2 or droppers.x.size != stated.droppers.x.size:
-        raise InconsistentInputError("the result does not hold the two wires and the droppers of its line")
-    coordinates = (droppers.contact_coordinate, droppers.messenger_coordinate)
-    forces = (droppers.on_contact, droppers.on_messenger)
+    bodies = free_bodies(result, stated)
+    if len(result.stages) != len(bodies):
+        raise InconsistentInputError("the result does not hold the nodes of its two wires")
     contact, messenger = (
-        _free_wire(result, stated, i, coordinates[i], forces[i]) for i in range(len(stated.wires))
+        FreeWire(**vars(body), curve=_curve(stage)) for body, stage in zip(bodies, result.stages, strict=True)
     )
     return contact, messenger
 
 
-def _free_wire(
+def _curve(stage: Stage) -> Curve:
+    nodes = slice(0, int(stage.node_count[0]))  # the other chains are dropper cables of the model
+    return Curve(stage.s[nodes], stage.position[nodes], stage.slope[nodes])
+
+
+def free_bodies(result: FormResult, stated: Stated) -> tuple[FreeBody, FreeBody]:
+    """Cut the two wires of a result free, whatever they are made of; see `free_wires`."""
+    droppers = result.droppers
+    if len(result.wires) != 2 or droppers.x.size != stated.droppers.x.size:
+        raise InconsistentInputError("the result does not hold the two wires and the droppers of its line")
+    coordinates = (droppers.contact_coordinate, droppers.messenger_coordinate)
+    forces = (droppers.on_contact, droppers.on_messenger)
+    contact, messenger = (
+        _free_body(result, stated, i, coordinates[i], forces[i]) for i in range(len(stated.wires))
+    )
+    return contact, messenger
+
+
+def _free_body(
     result: FormResult, stated: Stated, i: int, clamp_s: FloatArray, clamp_force: FloatArray
-) -> FreeWire:
-    wire, stage, table = stated.wires[i], result.stages[i], result.supports
+) -> FreeBody:
+    wire, table = stated.wires[i], result.supports
     held = [k for k, name in enumerate(table.wire) if name == wire.name]
     if tuple(table.support[k] for k in held) != wire.support_name or result.wires[i].name != wire.name:
         raise InconsistentInputError(f"the result does not have the supports of the {wire.name} in order")
-    nodes = slice(0, int(stage.node_count[0]))  # the other chains are dropper cables of the model
     force = np.column_stack((table.force_x, table.force_y, table.force_z))[held]
-    return FreeWire(
+    return FreeBody(
         stated=wire,
         form=result.wires[i],
-        curve=Curve(stage.s[nodes], stage.position[nodes], stage.slope[nodes]),
         support_s=table.sliding_coordinate[held],
         support_force=-force,
         clamp_s=clamp_s,

@@ -31,7 +31,7 @@ def profile_checks(wire: FreeWire) -> Iterator[Check]:
     places = Along(tuple((wire, s) for s in shape.s.tolist()))
     for name, unit, said, found in (
         ("profile, tension", "N", shape.tension, tension),
-        ("profile, strain tension (11)", "N", shape.strain_tension, strain_tension(wire, shape.s)),
+        ("profile, strain tension (11)", "N", shape.strain_tension, wire.strain_tension(shape.s)),
         ("profile, horizontal component", "N", shape.horizontal, tension * at.r1[:, 0] / size),
         ("profile, bending moment", "N m", shape.moment, moment),
     ):
@@ -41,7 +41,7 @@ def profile_checks(wire: FreeWire) -> Iterator[Check]:
 def support_check(wire: FreeWire, supports: Supports) -> Check:
     """Return whether the stated N = EA eps of eq. (11) at supports is that of the slopes."""
     held = [i for i, name in enumerate(supports.wire) if name == wire.stated.name]
-    off = np.abs(supports.tension[held] - strain_tension(wire, wire.support_s))
+    off = np.abs(supports.tension[held] - wire.strain_tension(wire.support_s))
     label = f"{wire.stated.name}, strain tension (11) at supports"
     allowed = np.full(off.size, wire.force_tolerance)
     return Check(_GROUP, label, "N", off, allowed, wire.joint_name[: off.size])
@@ -50,12 +50,6 @@ def support_check(wire: FreeWire, supports: Supports) -> Check:
 def _curvature(at: Points) -> FloatArray:
     """Return kappa of eq. (10) [1/m]; it jumps at nodes, where anything between both sides will do."""
     return np.linalg.norm(np.cross(at.r1, at.r2), axis=1) / np.linalg.norm(at.r1, axis=1) ** 3
-
-
-def strain_tension(wire: FreeWire, s: FloatArray) -> FloatArray:
-    """Return N = EA eps of eq. (11) at material coordinates [N]."""
-    r1 = wire.curve.at(s).r1
-    return 0.5 * wire.stated.conductor.EA * (np.sum(r1 * r1, axis=1) - 1.0)
 
 
 def mean_tension(wire: FreeWire) -> FloatArray:

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from catenaria.audit.free_wire import Along, FreeWire
+from catenaria.audit.free_wire import Along, FreeBody, FreeWire
 from catenaria.audit.quadrature import clenshaw_curtis
 from catenaria.audit.stated import Stated
 from catenaria.audit.verdict import Check, Names
@@ -50,11 +50,11 @@ def wire_checks(wire: FreeWire, supports: Supports) -> Iterator[Check]:
     yield _check("profile", off, Along(tuple((wire, s) for s in shape.s.tolist())))
 
 
-def dropper_checks(wires: tuple[FreeWire, FreeWire], droppers: Droppers, stated: Stated) -> Iterator[Check]:
+def dropper_checks(wires: tuple[FreeBody, FreeBody], droppers: Droppers, stated: Stated) -> Iterator[Check]:
     """Yield the checks of the dropper schedule: places, heights, and all three lengths."""
     names = tuple(f"dropper {i + 1}" for i in range(droppers.x.size))
     kind = stated.droppers
-    foot, top = (wire.curve.at(wire.clamp_s).r for wire in wires)
+    foot, top = (wire.position(wire.clamp_s) for wire in wires)
     off = np.abs(droppers.x - kind.x)
     if kind.guided:
         clamps = np.abs(np.column_stack((foot[:, 0], top[:, 0])) - kind.x[:, None])
@@ -86,15 +86,20 @@ def _mean_stretch(droppers: Droppers, stated: Stated) -> FloatArray:
 
     Notes
     -----
-    Green strain (9): the force EA (x^2 - 1) x/2 gives the stretch x. Weight makes the force grow linearly.
+    Weight makes the force grow linearly.
     """
     points, weights = clenshaw_curtis(4)
     tension = inner_tension(droppers, stated)
-    load = 2.0 * (tension[:, :1] + np.diff(tension, axis=1) * points) / stated.droppers.conductor.EA
-    x = np.ones_like(load)
+    force = tension[:, :1] + np.diff(tension, axis=1) * points
+    return green_stretch(force / stated.droppers.conductor.EA) @ weights
+
+
+def green_stretch(ratio: FloatArray) -> FloatArray:
+    """Return the stretch x with (x^2 - 1) x/2 = T/EA, the law of Green strain (9)."""
+    x = np.ones_like(ratio)
     for _ in range(6):  # Newton's method doubles its digits; forces of a tenth of EA need four steps
-        x -= (x**3 - x - load) / (3.0 * x**2 - 1.0)
-    return x @ weights
+        x -= (x**3 - x - 2.0 * ratio) / (3.0 * x**2 - 1.0)
+    return x
 
 
 def _check(name: str, off: FloatArray, place: Names) -> Check:

@@ -9,8 +9,7 @@ from numpy.typing import NDArray
 
 from catenaria.audit.allowance import Allowance
 from catenaria.audit.equilibrium import dropper_weight
-from catenaria.audit.free_wire import FreeWire
-from catenaria.audit.internal_forces import strain_tension
+from catenaria.audit.free_wire import FreeBody
 from catenaria.audit.lengths import TOLERANCE, inner_tension
 from catenaria.audit.stated import Stated
 from catenaria.audit.verdict import Check
@@ -22,13 +21,13 @@ _GROUP = "targets"
 
 
 def target_checks(
-    result: FormResult, stated: Stated, wires: tuple[FreeWire, FreeWire], allowed: Allowance
+    result: FormResult, stated: Stated, wires: tuple[FreeBody, FreeBody], allowed: Allowance
 ) -> Iterator[Check]:
     """Yield errors of heights and tensions, what the tables say of them, and droppers that do not pull."""
     n = result.droppers.x.size
     names = tuple(f"dropper {i + 1}" for i in range(n))
     tension = np.array([measured_tension(wire) - wire.stated.tension for wire in wires])
-    height = wires[0].curve.at(wires[0].clamp_s).r[:, 2] - stated.droppers.target_height
+    height = wires[0].position(wires[0].clamp_s)[:, 2] - stated.droppers.target_height
     titles = tuple(wire.stated.name for wire in wires)
     yield Check(_GROUP, "height at droppers", "m", np.abs(height), allowed.height, names)
     yield Check(_GROUP, "tension", "N", np.abs(tension), allowed.tension, titles)
@@ -42,7 +41,7 @@ def target_checks(
         yield _ends(wire)
 
 
-def measured_tension(wire: FreeWire) -> float:
+def measured_tension(wire: FreeBody) -> float:
     """Return the tension of a wire as its line file wants it measured [N].
 
     Notes
@@ -51,7 +50,7 @@ def measured_tension(wire: FreeWire) -> float:
     """
     end = -1 if wire.stated.at_end else 0
     if wire.stated.measure == "strain":
-        return float(strain_tension(wire, wire.support_s[[end]])[0])
+        return float(wire.strain_tension(wire.support_s[[end]])[0])
     return float(np.linalg.norm(wire.form.end_force[end]))
 
 
@@ -81,7 +80,7 @@ def _tables(
         yield Check(_GROUP, "stated control errors", unit, off[these], np.full(len(these), allowed), places)
 
 
-def _ends(wire: FreeWire) -> Check:
+def _ends(wire: FreeBody) -> Check:
     """Return whether what a wire's table says of its tension is what acts at its ends."""
     form = wire.form
     reaction, along = np.linalg.norm(form.end_force, axis=1), np.abs(form.end_force[:, 0])

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -38,12 +38,15 @@ class LineSystem:
     target: FloatArray
 
     @classmethod
-    def of(cls, line: Line, pulls: tuple[float, float] | None = None) -> LineSystem:
-        """Return the system of a line, with its tensions held or with given travels of the wires' ends [m]."""
-        first, second = pulls or (None, None)
-        contact = WireSystem(contact_mesh(line), pull=first)
-        messenger = WireSystem(messenger_mesh(line), pull=second)
+    def of(cls, line: Line) -> LineSystem:
+        """Return the system of a line, in which the tensions of its wires are held."""
+        contact, messenger = WireSystem(contact_mesh(line)), WireSystem(messenger_mesh(line))
         return cls(contact, messenger, bars(line), np.array(line.dropper_target_height))
+
+    def pulled(self, contact: float, messenger: float) -> LineSystem:
+        """Return the system in which the travels of the wires' ends are given instead [m]."""
+        wires = replace(self.contact, pull=contact), replace(self.messenger, pull=messenger)
+        return LineSystem(*wires, self.bars, self.target)
 
     @property
     def size(self) -> int:

@@ -42,7 +42,7 @@ class _Equations:
 
 
 @dataclass(frozen=True)
-class LineAtRest:
+class LineState:
     """A line at rest.
 
     Attributes
@@ -83,25 +83,50 @@ class LineAtRest:
         return self.system.bars.loads(self.length, self.unstressed)[1]
 
     @cached_property
-    def by_length(self) -> FloatArray:
-        """Derivative of all unknowns by the unstressed lengths: one factorisation, shape (size, n)."""
-        matrix = self.system.jacobian(self.y, self.unstressed).tocsc()
-        return -splu(matrix).solve(self.system.by_length(self.y, self.unstressed))
+    def by_parameter(self) -> FloatArray:
+        """Derivative of all unknowns by unstressed lengths and by given travels of the two wires' ends.
+
+        Shape (size, n) or (size, n + 2): one factorisation, and a back-substitution for each.
+        """
+        given = self.system.by_length(self.y, self.unstressed)
+        if self.system.contact.pull is not None:
+            travel = np.zeros((self.system.size, 2))
+            travel[[self.system.contact.size - 1, -1], [0, 1]] = -1.0
+            given = np.hstack((given, travel))
+        return -splu(self.system.jacobian(self.y, self.unstressed).tocsc()).solve(given)
 
     @property
-    def height_by_length(self) -> FloatArray:
-        """Derivative of the heights, shape (n, n)."""
-        return self.by_length[self.system.foot]
+    def height_by_parameter(self) -> FloatArray:
+        """Derivative of the heights by the parameters, n rows."""
+        return self.by_parameter[self.system.foot]
 
     @property
     def foot_force_by_length(self) -> FloatArray:
         """Derivative of the forces on the contact wire [N/m], shape (n, n)."""
         N_l, N_u = self.system.bars.tension_by(self.length, self.unstressed)
-        length = self.by_length[self.system.top] - self.by_length[self.system.foot]
+        length = self.by_parameter[self.system.top] - self.by_parameter[self.system.foot]
         return N_l[:, None] * length + np.diag(N_u - 0.5 * self.system.bars.weight)
 
+    @property
+    def tension(self) -> FloatArray:
+        """Reactions of the devices of the two wires [N]."""
+        lower, upper = self.system.parts(self.y)
+        return np.array([self.system.contact.tension(lower), self.system.messenger.tension(upper)])
 
-def come_to_rest(system: LineSystem, unstressed: FloatArray, y: FloatArray, before: int = 0) -> LineAtRest:
+    @property
+    def tension_by_parameter(self) -> FloatArray:
+        """Derivative of the reactions by the parameters, two rows."""
+        lower, upper = self.system.parts(self.y)
+        moved = self.system.parts(self.by_parameter)
+        return np.stack(
+            (
+                self.system.contact.tension_gradient(lower) @ moved[0],
+                self.system.messenger.tension_gradient(upper) @ moved[1],
+            )
+        )
+
+
+def come_to_rest(system: LineSystem, unstressed: FloatArray, y: FloatArray, before: int = 0) -> LineState:
     """Find where a line comes to rest.
 
     Parameters
@@ -127,10 +152,4 @@ def come_to_rest(system: LineSystem, unstressed: FloatArray, y: FloatArray, befo
         )
     options = NewtonOptions(max_iterations=_ITERATIONS)
     root = solve_newton(_Equations(system, unstressed), y, options)
-    return LineAtRest(system, unstressed, root.y, before + root.corrections.size)
-
-
-def begin(system: LineSystem, start: tuple[FloatArray, FloatArray]) -> LineAtRest:
-    """Return the line at rest with the dropper lengths of a first guess."""
-    y, unstressed = start
-    return come_to_rest(system, unstressed, y)
+    return LineState(system, unstressed, root.y, before + root.corrections.size)

@@ -5,11 +5,34 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from catenaria.errors import InconsistentInputError
 from catenaria.formfinding.finite_elements.line_system import LineSystem
 from catenaria.formfinding.finite_elements.wire import WireMesh
 from catenaria.formfinding.finite_elements.wire_system import WireSystem
+from catenaria.results.form import FormResult
 
 FloatArray = NDArray[np.float64]
+
+
+def first_guess(system: LineSystem, start: FormResult | None) -> tuple[FloatArray, FloatArray]:
+    """Return a first guess: `parabolic_start`, or the shapes and lengths of an earlier result.
+
+    Raises
+    ------
+    InconsistentInputError
+        If the earlier result is of a line with another number of droppers.
+    """
+    if start is None:
+        return parabolic_start(system)
+    if start.droppers.x.size != system.target.size:
+        raise InconsistentInputError(
+            f"the start has {start.droppers.x.size} droppers, the line {system.target.size}"
+        )
+    parts: list[FloatArray] = []
+    for wire, form in zip((system.contact, system.messenger), start.wires, strict=True):
+        z = np.interp(wire.mesh.x, form.profile.x, form.profile.z)
+        parts.append(laid_out(wire, z, np.gradient(z, wire.mesh.x)))
+    return np.concatenate(parts), start.droppers.unstressed_length
 
 
 def parabolic_start(system: LineSystem) -> tuple[FloatArray, FloatArray]:
@@ -29,8 +52,7 @@ def parabolic_start(system: LineSystem) -> tuple[FloatArray, FloatArray]:
         Distances between the two: what a designer writes down first.
     """
     lower, upper = system.contact.mesh, system.messenger.mesh
-    z, slope = _through(lower, system.target)
-    contact = laid_out(system.contact, z, slope)
+    contact = straight_between(system.contact, system.target)
     z, slope = _parabolas(upper, lower.section.weight + upper.section.weight)
     return np.concatenate((contact, laid_out(system.messenger, z, slope))), z[upper.clamp] - system.target
 
@@ -49,12 +71,13 @@ def laid_out(system: WireSystem, z: FloatArray, slope: FloatArray) -> FloatArray
     return np.concatenate((q.reshape(-1)[system.free], lengths, [pull]))
 
 
-def _through(mesh: WireMesh, target: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return heights and slopes of a wire that is straight between supports and wanted heights."""
+def straight_between(system: WireSystem, target: FloatArray) -> FloatArray:
+    """Return the unknowns of a wire that is straight between supports and wanted heights."""
+    mesh = system.mesh
     height = np.full(mesh.joint.size, mesh.height)
     height[~mesh.is_support] = target
     z = np.interp(mesh.x, mesh.x[mesh.joint], height)
-    return z, np.gradient(z, mesh.x)
+    return laid_out(system, z, np.gradient(z, mesh.x))
 
 
 def _parabolas(mesh: WireMesh, weight: float) -> tuple[FloatArray, FloatArray]:

@@ -7,7 +7,7 @@ joint takes no force along the track (clamp) or along the wire (support).
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -124,6 +124,11 @@ class WireSystem:
         whole = np.sum(y[self.lengths]) - mesh.laid
         last = self.tension(y) - mesh.tension if self.pull is None else y[-1] - self.pull
         return np.concatenate((f.reshape(-1)[self.free], along, [whole, last]))
+
+    def tension_gradient(self, y: FloatArray) -> FloatArray:
+        """Return the derivative of the tension by the unknowns, shape (size,)."""
+        free = replace(self, pull=None)
+        return free.jacobian(y)[[free.size - 1]].toarray()[0]
 
     def jacobian(self, y: FloatArray) -> Matrix:
         """Return the derivative of the residual by the unknowns."""

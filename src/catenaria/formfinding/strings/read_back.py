@@ -112,13 +112,14 @@ def _schedule(line: Line, task: StringLine, found: LineAtRest) -> Droppers:
 
 
 class _Sampled(NamedTuple):
-    """A string at many points: behind them, where a force makes it jump, force F and direction."""
+    """A string at many points, where a force makes it jump behind them; and the stretched lengths between."""
 
     s: FloatArray
     r: FloatArray
     F: FloatArray
     size: FloatArray
     stretch: FloatArray
+    length: FloatArray
 
 
 def _sample(wire: StringWire, string: StringAtRest) -> _Sampled:
@@ -135,38 +136,41 @@ def _sample(wire: StringWire, string: StringAtRest) -> _Sampled:
     s = (string.s[:-1, None] + ds[:, None] * np.arange(_SAMPLES)).ravel()
     before, ds = np.repeat(before, _SAMPLES, axis=0), np.repeat(ds, _SAMPLES)
     points, weights = gauss_legendre(3)
-    step = np.zeros((s.size, 3))
+    step, length = np.zeros((s.size, 3)), np.zeros(s.size)
     for point, weight in zip(points, weights, strict=True):
-        F = before.copy()
-        F[:, 2] += wire.w * (s + 0.5 * (point + 1.0) * ds - string.s[0])
-        T = np.linalg.norm(F, axis=1)
-        step += (0.5 * weight * ds * stretch(T, wire.EA) / T)[:, None] * F
+        inner = before.copy()
+        inner[:, 2] += wire.w * (s + 0.5 * (point + 1.0) * ds - string.s[0])
+        size = np.linalg.norm(inner, axis=1)
+        part = 0.5 * weight * ds * stretch(size, wire.EA)
+        length += part
+        step += (part / size)[:, None] * inner
     step = step.reshape(-1, _SAMPLES, 3)
     step += ((np.diff(string.r, axis=0) - step.sum(axis=1)) / _SAMPLES)[:, None]
     r = (string.r[:-1, None] + np.cumsum(step, axis=1) - step).reshape(-1, 3)
     s, r = np.append(s, string.s[-1]), np.vstack((r, string.r[-1]))
-    F = np.vstack((before, string.force[-1]))
-    F[:-1, 2] += wire.w * (s[:-1] - string.s[0])
-    size = np.linalg.norm(F, axis=1)
-    return _Sampled(s, r, F, size, stretch(size, wire.EA))
+    behind = np.vstack((before, string.force[-1]))
+    behind[:-1, 2] += wire.w * (s[:-1] - string.s[0])
+    size = np.linalg.norm(behind, axis=1)
+    return _Sampled(s, r, behind, size, stretch(size, wire.EA), length)
 
 
 def _wire_form(wire: StringWire, string: StringAtRest) -> WireForm:
     sampled = _sample(wire, string)
-    first, last = string.support[[0, -1]] * _SAMPLES
-    between = slice(int(first), int(last) + 1)
+    first, last = (string.support[[0, -1]] * _SAMPLES).tolist()
+    between = slice(first, last + 1)
     ds = np.diff(sampled.s[between])
-    stretches, tensions = (values[between] for values in (sampled.stretch, sampled.size))
+    tensions = sampled.size[between]
     end_force = -string.force[[0, -1]]
     reaction = np.linalg.norm(end_force, axis=1)
     tension = float(reaction[-1 if wire.at_end else 0])
-    hung = np.sort(np.concatenate((string.support, string.clamp if wire.name == "contact wire" else [])))
-    x, z = string.r[hung.astype(np.int64)][:, [0, 2]].T
-    chord = np.interp(sampled.r[between, 0], x, z)
+    hung = string.support
+    if wire.name == "contact wire":
+        hung = np.sort(np.concatenate((string.support, string.clamp)))
+    chord: FloatArray = np.interp(sampled.r[between, 0], string.r[hung, 0], string.r[hung, 2])
     return WireForm(
         name=wire.name,
         unstressed_length=float(sampled.s[last] - sampled.s[first]),
-        stretched_length=float(0.5 * ds @ (stretches[:-1] + stretches[1:])),
+        stretched_length=float(np.sum(sampled.length[first:last])),
         target_tension=wire.tension,
         tension=tension,
         tension_error=tension - wire.tension,
@@ -213,10 +217,10 @@ def _supports(line: Line, pairs: tuple[tuple[StringWire, StringAtRest], ...]) ->
 
 def _strain_tension(wire: StringWire, string: StringAtRest) -> FloatArray:
     """Return N = EA eps of eq. (11) at the supports [N]."""
-    F = -np.cumsum(string.force, axis=0)[string.support]
-    F[:, 2] += wire.w * (string.s[string.support] - string.s[0])
-    T = np.linalg.norm(F, axis=1)
-    return T / stretch(T, wire.EA)
+    force = -np.cumsum(string.force, axis=0)[string.support]
+    force[:, 2] += wire.w * (string.s[string.support] - string.s[0])
+    size = np.linalg.norm(force, axis=1)
+    return size / stretch(size, wire.EA)
 
 
 def _controls(droppers: Droppers, wires: tuple[WireForm, ...]) -> Controls:

@@ -1,0 +1,68 @@
+"""Finite elements with adjusted dropper lengths [15, 16]: Newton's method on the lengths.
+
+Our reconstruction of the family: the originals adjust lengths by trial (see `trial_lengths`); here every
+adjustment uses what each length does to every height.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from catenaria.errors import NotConvergedError
+from catenaria.formfinding.finite_elements.found import Found, found_state
+from catenaria.formfinding.finite_elements.line_system import LineSystem
+from catenaria.formfinding.finite_elements.rest import come_to_rest
+from catenaria.formfinding.finite_elements.start import first_guess
+from catenaria.line import Line
+from catenaria.results.form import FormResult
+
+NEGLECTS = "nothing that is in the plane"
+
+_TOLERANCE = 1e-8  # m, of the heights
+_ROUNDS = 30
+
+
+def adjust_lengths(line: Line, start: FormResult | None) -> Found:
+    r"""Find the dropper lengths with which the contact wire rests at the wanted heights.
+
+    Parameters
+    ----------
+    line : Line
+        What the engineer describes.
+    start : FormResult or None
+        An earlier result to begin from.
+
+    Returns
+    -------
+    Found
+
+    Raises
+    ------
+    NotConvergedError
+        If lengths or a state of equilibrium are not found.
+
+    Notes
+    -----
+    For given unstressed lengths :math:`l_0` the line comes to rest, R(y, l_0) = 0, with heights z(y) at the
+    droppers. Newton's method for z = z*:
+
+    .. math:: \frac{dz}{dl_0} = -C\,R_y^{-1} R_{l_0},\qquad
+              \Delta l_0 = -\left(\frac{dz}{dl_0}\right)^{-1} (z - z^*),
+
+    in which C picks the heights out of y: one factorisation and n back-substitutions a round.
+    """
+    system = LineSystem.of(line)
+    y, unstressed = first_guess(system, start)
+    state = come_to_rest(system, unstressed, y)
+    for rounds in range(_ROUNDS):
+        error = state.height - system.target
+        if np.max(np.abs(error)) < _TOLERANCE:
+            how = f"lengths were adjusted in {rounds} rounds with {state.iterations} Newton iterations"
+            return found_state(state, how, rounds, rounds + 1)
+        change = -np.linalg.solve(state.height_by_parameter, error)
+        guess = state.y + state.by_parameter @ change
+        state = come_to_rest(system, state.unstressed + change, guess, state.iterations)
+    raise NotConvergedError(
+        f"the heights are still {np.max(np.abs(error)):.3g} m off after {_ROUNDS} adjustments",
+        "--method direct",
+    )
