@@ -129,10 +129,10 @@ def points(wire: Chain, z: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def check_same(form: Form, other: Form) -> None:
-    """Coordinates to 0.1 nm, forces to 10 nN, frequencies to 1e-9: what rounding leaves."""
+    """Coordinates to 0.1 nm, forces to 0.1 uN, frequencies to 1e-9: what rounding leaves."""
     np.testing.assert_allclose(form.r, other.r, rtol=0.0, atol=1e-10)
     np.testing.assert_allclose(form.direction, other.direction, rtol=0.0, atol=1e-10)
-    np.testing.assert_allclose(form.force, other.force, rtol=0.0, atol=1e-8)
+    np.testing.assert_allclose(form.force, other.force, rtol=0.0, atol=1e-7)
     np.testing.assert_allclose(form.s, other.s, rtol=0.0, atol=1e-10)
     np.testing.assert_allclose(form.frequency, other.frequency, rtol=1e-9)
 

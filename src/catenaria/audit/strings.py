@@ -32,9 +32,9 @@ def wire_checks(wire: FreeBody, supports: Supports) -> Iterator[Check]:
     -----
     Cut at s, a string is held by the force F(s) that is left of all forces and weights before s. It has no
     bending stiffness, so it runs in that direction, stretched by x(T): between any two of its points
-    :math:`\Delta r = \int x(T)\,F/T\,ds`, integrated by Clenshaw-Curtis quadrature. What is missing across the
-    string is told as the force T u/l that would hold it there over the length l, what is missing along it as
-    the length that it is. Supports without friction do not change T.
+    :math:`\Delta r = \int x(T)\,F/T\,ds`, integrated by Clenshaw-Curtis quadrature. What is missing across
+    the string is told as the force T u/l that would hold it there over the length l, what is missing along
+    it as the length that it is. Supports without friction do not change T.
     """
     name, tolerance = wire.stated.name, wire.force_tolerance
     end = inner_force(wire, wire.end_s[1:], after=True)

@@ -16,7 +16,7 @@ from catenaria.formfinding.finite_elements.start import first_guess
 from catenaria.line import Line
 from catenaria.results.form import FormResult
 
-NEGLECTS = "nothing that is in the plane"
+NEGLECTS = "the third direction"
 
 _TOLERANCE = 1e-8  # m, of the heights
 _ROUNDS = 30

@@ -22,10 +22,10 @@ from catenaria.results.form import FormResult
 
 FloatArray = NDArray[np.float64]
 
-NEGLECTS = "nothing that is in the plane"
+NEGLECTS = "the third direction"
 
 _ROUNDS = 200
-_PRECISION = 1e-16  # of the objective and of the constraints' sizes, which are scaled to metres
+_PRECISION = 1e-9  # m: change of the objective, and sum of all constraints
 
 
 def optimise_under_constraints(line: Line, start: FormResult | None) -> Found:

@@ -20,7 +20,7 @@ from catenaria.results.form import FormResult
 
 FloatArray = NDArray[np.float64]
 
-NEGLECTS = "nothing that is in the plane"
+NEGLECTS = "the third direction"
 
 
 def minimise_distance(line: Line, start: FormResult | None) -> Found:

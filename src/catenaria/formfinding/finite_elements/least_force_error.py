@@ -21,7 +21,7 @@ from catenaria.results.form import FormResult
 
 FloatArray = NDArray[np.float64]
 
-NEGLECTS = "nothing that is in the plane"
+NEGLECTS = "the third direction"
 
 
 def minimise_force_error(line: Line, start: FormResult | None) -> Found:

@@ -1,1 +1,1 @@
-"""Form-finding for wires without bending stiffness: independent formulations of the equilibrium of strings."""
+"""Form-finding for wires without bending stiffness: independent formulations of strings."""

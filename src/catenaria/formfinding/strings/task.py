@@ -1,4 +1,4 @@
-"""What every method for strings starts from: the numbers of a line, and the refusal of what strings cannot do."""
+"""What every method for strings starts from: the numbers of a line; what strings cannot do is refused."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ IntArray = NDArray[np.int64]
 
 
 class Joints(NamedTuple):
-    """Supports and droppers of a wire in order: positions along the track [m], and which of them are which."""
+    """Supports and droppers of a wire in order: positions along the track [m], and which are which."""
 
     x: FloatArray
     support: IntArray
