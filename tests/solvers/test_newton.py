@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.sparse import csc_array
 
-from catenaria.errors import InconsistentInputError, NotConvergedError
+from catenaria.errors import InconsistentInputError, InfeasibleError, NotConvergedError
 from catenaria.solvers.newton import NewtonOptions, Root, solve_newton
 
 
@@ -96,6 +96,57 @@ def test_discrete_state_follows_the_iterates():
     assert root.y[0] == pytest.approx(2.0)
     assert isinstance(root.problem, Kink)
     assert root.problem.right
+
+
+class Counting(Scalar):
+    """Counts its Jacobians."""
+
+    def __init__(self, f, f_y):
+        super().__init__(f, f_y)
+        self.jacobians = 0
+
+    def jacobian(self, y):
+        self.jacobians += 1
+        return super().jacobian(y)
+
+
+def cube(shift):
+    return Counting(lambda y: y**3 - shift, lambda y: 3.0 * y * y)
+
+
+def test_factors_are_kept_where_they_contract_well():
+    near = cube(8.0)
+    root = solve_newton(near, np.array([2.001]))
+    assert root.y[0] == pytest.approx(2.0, abs=1e-12)
+    assert near.jacobians == 1
+    assert root.simplified > 0
+    assert root.iterations == root.corrections.size + root.simplified
+
+
+def test_factors_are_renewed_where_they_do_not():
+    far = cube(8.0)
+    root = solve_newton(far, np.array([4.0]))
+    assert root.y[0] == pytest.approx(2.0, abs=1e-12)
+    assert far.jacobians > 2
+
+
+def test_a_trial_outside_of_what_is_possible_is_damped():
+    """Newton's step from 0.5 leads to 11; only up to 6 there is anything."""
+
+    class Bounded(Scalar):
+        def reselect(self, y):
+            if y[0] > self.end:
+                raise InfeasibleError("beyond the end")
+
+    def bounded(end):
+        problem = Bounded(lambda y: y**3 - 8.0, lambda y: 3.0 * y * y)
+        problem.end = end
+        return problem
+
+    root = solve_newton(bounded(6.0), np.array([0.5]))
+    assert root.y[0] == pytest.approx(2.0)
+    with pytest.raises(InfeasibleError, match="beyond the end"):
+        solve_newton(bounded(1.0), np.array([0.5]))
 
 
 @pytest.mark.parametrize(

@@ -6,13 +6,16 @@ from collections.abc import Iterator
 
 from catenaria.audit import equilibrium, internal_forces, lengths, strings
 from catenaria.audit.allowance import allowance
-from catenaria.audit.free_wire import free_bodies, free_wires
+from catenaria.audit.beams import FreeBeam
+from catenaria.audit.free_wire import FreeWire, free_bodies, free_wires
 from catenaria.audit.stated import Stated, read_inputs
 from catenaria.audit.targets import target_checks
 from catenaria.audit.verdict import Check, conclude
 from catenaria.errors import InconsistentInputError
 from catenaria.results.audit import Audit
 from catenaria.results.form import FormResult
+
+_BENT = {"bending": FreeWire, "beam": FreeBeam}
 
 
 def audit_result(result: FormResult) -> Audit:
@@ -40,7 +43,8 @@ def audit_result(result: FormResult) -> Audit:
     largest tension, lengths to 1e-7 m, targets to the bands that the result states.
 
     The stated physics is the only parameter: wires whose `physics` is ``string`` must run in the direction
-    of the force that the sum of all forces and weights before a point leaves there.
+    of the force that the sum of all forces and weights before a point leaves there. Those whose `physics` is
+    ``beam`` have one strain in every element and nodes that only turn.
 
     Not looked at: sags, smallest, largest and mean tensions, what the result keeps for a restart besides the
     wires' nodes, histories, counters.
@@ -57,9 +61,10 @@ def _checks(result: FormResult) -> Iterator[Check]:
     stated = read_inputs(result.inputs)
     if result.physics == "string":
         return _checks_of_strings(result, stated)
-    if result.physics == "bending":
-        return _checks_of_wires(result, stated)
-    raise InconsistentInputError(f"wires are 'bending' or 'string', not {result.physics!r}")
+    if result.physics in _BENT:
+        return _checks_of_wires(result, stated, _BENT[result.physics])
+    kinds = "', '".join(("string", *_BENT))
+    raise InconsistentInputError(f"wires are one of '{kinds}', not {result.physics!r}")
 
 
 def _checks_of_strings(result: FormResult, stated: Stated) -> Iterator[Check]:
@@ -74,8 +79,8 @@ def _checks_of_strings(result: FormResult, stated: Stated) -> Iterator[Check]:
     yield from target_checks(result, stated, wires, allowed)
 
 
-def _checks_of_wires(result: FormResult, stated: Stated) -> Iterator[Check]:
-    wires = free_wires(result, stated)
+def _checks_of_wires(result: FormResult, stated: Stated, kind: type[FreeWire]) -> Iterator[Check]:
+    wires = free_wires(result, stated, kind)
     allowed = allowance(result, wires)
     tolerance = max(wire.force_tolerance for wire in wires)
     yield equilibrium.node_check(wires)

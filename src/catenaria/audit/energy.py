@@ -13,7 +13,7 @@ FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
 _INTERVALS = 12  # 13 points: exact to degree 13, where EA eps^2 has degree 8
-_STEP = 1e-30  # complex steps have no cancellation, so the step may vanish against everything
+STEP = 1e-30  # complex steps have no cancellation, so the step may vanish against everything
 
 
 def elastic_force(curve: Curve, conductor: Conductor) -> FloatArray:
@@ -46,9 +46,9 @@ def elastic_force(curve: Curve, conductor: Conductor) -> FloatArray:
     for k in range(4):
         for i in range(3):
             step = np.zeros(3, dtype=np.complex128)
-            step[i] = 1j * _STEP
+            step[i] = 1j * STEP
             density = _energy_density(r1 + N1[..., k, None] * step, r2 + N2[..., k, None] * step, conductor)
-            force[:, k, i] = np.sum(density.imag * weights, axis=1) / _STEP
+            force[:, k, i] = np.sum(density.imag * weights, axis=1) / STEP
     return force
 
 
@@ -93,7 +93,12 @@ def nodal_residual(
 def _energy_density(r1: ComplexArray, r2: ComplexArray, conductor: Conductor) -> ComplexArray:
     """Return (EA eps^2 + EJ kappa^2)/2; products without conjugates, which are not analytic."""
     a = np.sum(r1 * r1, axis=-1)
+    return 0.5 * conductor.EA * (0.5 * (a - 1.0)) ** 2 + bending_density(r1, r2, conductor)
+
+
+def bending_density(r1: ComplexArray, r2: ComplexArray, conductor: Conductor) -> ComplexArray:
+    """Return EJ kappa^2/2 with the curvature (10), for complex r' and r''."""
     x, y, z = np.moveaxis(r1, -1, 0)
     u, v, w = np.moveaxis(r2, -1, 0)
     cross = (y * w - z * v) ** 2 + (z * u - x * w) ** 2 + (x * v - y * u) ** 2
-    return 0.5 * conductor.EA * (0.5 * (a - 1.0)) ** 2 + 0.5 * conductor.EJ * cross / a**3
+    return 0.5 * conductor.EJ * cross / np.sum(r1 * r1, axis=-1) ** 3

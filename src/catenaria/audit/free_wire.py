@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from catenaria.audit.curve import Curve
 from catenaria.audit.energy import nodal_residual
+from catenaria.audit.quadrature import clenshaw_curtis
 from catenaria.audit.stated import Stated, StatedWire
 from catenaria.errors import InconsistentInputError
 from catenaria.results.form import FormResult, Stage, WireForm
@@ -132,6 +133,15 @@ class FreeWire(FreeBody):
         """Residual of every node: forces [N] and moments per slope [N m], shape (n, 2, 3)."""
         return nodal_residual(self.curve, self.stated.conductor, self.gravity, self.joint_s, self.joint_force)
 
+    @property
+    def mean_tension(self) -> FloatArray:
+        """The mean over each element of the true axial force EA eps |r'| [N]."""
+        points, weights = clenshaw_curtis(12)
+        s = self.curve.s[:-1, None] + self.curve.L[:, None] * points
+        size = np.linalg.norm(self.curve.at(s.ravel()).r1, axis=1)
+        force = 0.5 * self.stated.conductor.EA * (size**2 - 1.0) * size
+        return force.reshape(s.shape) @ weights
+
     def position(self, s: FloatArray) -> FloatArray:
         """Return where the points with the given material coordinates are, shape (n, 3) [m]."""
         return self.curve.at(s).r
@@ -154,8 +164,17 @@ class Along:
         return f"{wire.stated.name}, {wire.place(s)}"
 
 
-def free_wires(result: FormResult, stated: Stated) -> tuple[FreeWire, FreeWire]:
+def free_wires(
+    result: FormResult, stated: Stated, kind: type[FreeWire] = FreeWire
+) -> tuple[FreeWire, FreeWire]:
     """Cut the two wires of a result free.
+
+    Parameters
+    ----------
+    result, stated
+        What was found and what was asked for.
+    kind : type
+        What the wires are made of.
 
     Raises
     ------
@@ -166,7 +185,7 @@ def free_wires(result: FormResult, stated: Stated) -> tuple[FreeWire, FreeWire]:
     if len(result.stages) != len(bodies):
         raise InconsistentInputError("the result does not hold the nodes of its two wires")
     contact, messenger = (
-        FreeWire(**vars(body), curve=_curve(stage)) for body, stage in zip(bodies, result.stages, strict=True)
+        kind(**vars(body), curve=_curve(stage)) for body, stage in zip(bodies, result.stages, strict=True)
     )
     return contact, messenger
 

@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 
 from catenaria.audit.curve import Points
 from catenaria.audit.free_wire import Along, FreeWire
-from catenaria.audit.quadrature import clenshaw_curtis
 from catenaria.audit.verdict import Check
 from catenaria.results.form import Supports
 
@@ -24,7 +23,7 @@ def profile_checks(wire: FreeWire) -> Iterator[Check]:
     at = wire.curve.at(shape.s)
     size = np.linalg.norm(at.r1, axis=1)
     middle = 0.5 * (wire.curve.s[:-1] + wire.curve.s[1:])
-    tension = np.interp(shape.s, middle, mean_tension(wire))
+    tension = np.interp(shape.s, middle, wire.mean_tension)
     after, before = (kind.EJ * _curvature(at) for at in (at, wire.curve.at(shape.s, side="left")))
     moment = np.clip(shape.moment, np.minimum(before, after), np.maximum(before, after))
     allowed = np.full(shape.s.shape, wire.force_tolerance)
@@ -50,12 +49,3 @@ def support_check(wire: FreeWire, supports: Supports) -> Check:
 def _curvature(at: Points) -> FloatArray:
     """Return kappa of eq. (10) [1/m]; it jumps at nodes, where anything between both sides will do."""
     return np.linalg.norm(np.cross(at.r1, at.r2), axis=1) / np.linalg.norm(at.r1, axis=1) ** 3
-
-
-def mean_tension(wire: FreeWire) -> FloatArray:
-    """Return the mean over each element of the true axial force EA eps |r'| [N]."""
-    points, weights = clenshaw_curtis(12)
-    s = wire.curve.s[:-1, None] + wire.curve.L[:, None] * points
-    size = np.linalg.norm(wire.curve.at(s.ravel()).r1, axis=1)
-    force = 0.5 * wire.stated.conductor.EA * (size**2 - 1.0) * size
-    return force.reshape(s.shape) @ weights

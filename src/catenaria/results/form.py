@@ -328,7 +328,8 @@ class FormResult:
     rebuilt : Rebuilt
         Where a line built from the found lengths came to rest; empty until there was one.
     physics : str
-        What the wires are, which an audit must know: ``bending`` (eqs. (7)-(10), with `stages`) or ``string``
+        What the wires are, which an audit must know: ``bending`` (eqs. (7)-(10), with `stages`), ``beam``
+        (bending too, but with one strain in every element; `stages` hold the nodes) or ``string``
         (no bending stiffness, no `stages`; profiles are given behind joints, where forces jump).
     """
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from catenaria.errors import NotConvergedError
+from catenaria.errors import InfeasibleError, NotConvergedError
 from catenaria.solvers.linear import ColumnOrdering, Factorisation, factorise
 from catenaria.solvers.problem import AlgebraicProblem, FloatArray, SparseMatrix
 
@@ -149,9 +149,6 @@ def solve_newton(
             raise _failure(iterate, f"Newton's method has made {options.max_iterations} iterations")
         iterate = _iterate(iterate, options, inspect)
         inspect = None
-        selected = iterate.problem.reselect(iterate.y)
-        if selected is not None:
-            iterate = replace(iterate, problem=selected, converged=False)
     return iterate.root()
 
 
@@ -170,41 +167,42 @@ def _iterate(iterate: _Iterate, options: NewtonOptions, inspect: Inspect | None)
     if not np.isfinite(size):
         raise _failure(iterate, "The residual or a Newton correction is not finite")
     if size <= 1.0:
-        return _next(iterate, y + correction, size, 1.0, True)
-    damping = 1.0
+        return _next(iterate, problem, y + correction, size, 1.0, True)
+    damping, refused = 1.0, None
     while damping >= options.min_damping:
         trial = y + damping * correction
-        simplified = _correction(problem, factorisation, trial)
+        try:
+            at_trial = problem.reselect(trial) or problem
+        except InfeasibleError as error:
+            damping, refused = 0.5 * damping, error
+            continue
+        simplified = _correction(at_trial, factorisation, trial)
         reduced = _size(problem, simplified)
         if reduced <= 1.0 and damping == 1.0:
-            return _next(iterate, trial + simplified, size, damping, True)
+            return _next(iterate, at_trial, trial + simplified, size, damping, True)
         if reduced <= (1.0 - 0.25 * damping) * size:
-            accepted = _next(iterate, trial, size, damping, False)
+            accepted = _next(iterate, at_trial, trial, size, damping, False)
             if damping == 1.0 and _pays(reduced, size):
                 return _simplified(accepted, factorisation, simplified, reduced)
             return accepted
         estimate = _estimate(problem, correction, simplified, damping)
         damping *= min(max(estimate / damping, 0.1), 0.5)
-    raise _failure(iterate, "Newton's method finds no damping that brings it nearer to a root")
+    raise refused or _failure(iterate, "Newton's method finds no damping that brings it nearer to a root")
 
 
 def _simplified(
     iterate: _Iterate, factorisation: Factorisation, correction: FloatArray, size: float
 ) -> _Iterate:
-    """Go on with the same factors while they contract so well that new ones would not pay.
-
-    A correction after a change of the discrete state contains what that has changed, and is not judged by it.
-    """
+    """Go on with the same factors while they contract so well that new ones would not pay."""
     problem, y, count = iterate.problem, iterate.y, iterate.simplified
     while True:
         y, count = y + correction, count + 1
-        selected = problem.reselect(y)
-        problem = selected or problem
+        problem = problem.reselect(y) or problem
         following = _correction(problem, factorisation, y)
         reduced = _size(problem, following)
         if reduced <= 1.0:
             return replace(iterate, y=y + following, problem=problem, simplified=count + 1, converged=True)
-        if not (_pays(reduced, size) if selected is None else reduced <= size):
+        if not _pays(reduced, size):
             return replace(iterate, y=y, problem=problem, simplified=count)
         correction, size = following, reduced
 
@@ -232,9 +230,11 @@ def _estimate(
     return 0.5 * damping**2 * _size(problem, correction) / deviation
 
 
-def _next(iterate: _Iterate, y: FloatArray, size: float, damping: float, converged: bool) -> _Iterate:
+def _next(
+    iterate: _Iterate, problem: AlgebraicProblem, y: FloatArray, size: float, damping: float, converged: bool
+) -> _Iterate:
     corrections, dampings = (*iterate.corrections, size), (*iterate.damping, damping)
-    return _Iterate(y, iterate.problem, corrections, dampings, iterate.simplified, converged)
+    return _Iterate(y, problem, corrections, dampings, iterate.simplified, converged)
 
 
 def _failure(iterate: _Iterate, reason: str) -> NotConvergedError:

@@ -16,8 +16,6 @@ from catenaria.formfinding.finite_elements.start import first_guess
 from catenaria.line import Line
 from catenaria.results.form import FormResult
 
-NEGLECTS = "the third direction"
-
 _TOLERANCE = 1e-8  # m, of the heights
 _ROUNDS = 30
 

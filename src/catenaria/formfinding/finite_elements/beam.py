@@ -7,7 +7,7 @@ coordinates, and the mean strain of the element instead of the strain at points.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,6 +27,39 @@ class Section:
     EA: float
     EJ: float
     weight: float
+
+
+class _Even(NamedTuple):
+    """An even polynomial p0 (a^2 + b^2) + p1 ab + q0 (a^4 + b^4) + q1 ab (a^2 + b^2) + q2 a^2 b^2."""
+
+    p0: float
+    p1: float
+    q0: float
+    q1: float
+    q2: float
+
+    def value(self, a: Array, b: Array) -> Array:
+        """Return its values."""
+        squares, product = a * a + b * b, a * b
+        fourth = self.q0 * (a**4 + b**4) + product * (self.q1 * squares + self.q2 * product)
+        return self.p0 * squares + self.p1 * product + fourth
+
+    def by_first(self, a: Array, b: Array) -> Array:
+        """Return its derivative by a; that by b is the same with a and b exchanged."""
+        third = 4.0 * self.q0 * a**3 + self.q1 * b * (3.0 * a * a + b * b) + 2.0 * self.q2 * a * b * b
+        return 2.0 * self.p0 * a + self.p1 * b + third
+
+    def twice(self, a: Array, b: Array) -> Array:
+        """Return its second derivative by a."""
+        return 2.0 * self.p0 + 12.0 * self.q0 * a * a + 6.0 * self.q1 * a * b + 2.0 * self.q2 * b * b
+
+    def mixed(self, a: Array, b: Array) -> Array:
+        """Return its derivative by a and b."""
+        return self.p1 + 3.0 * self.q1 * (a * a + b * b) + 4.0 * self.q2 * a * b
+
+
+_BOW = _Even(1 / 15, -1 / 30, -7 / 900, -31 / 12600, 11 / 1400)
+_BENDING = _Even(1.0, 1.0, -71 / 1050, -2 / 525, -36 / 175)
 
 
 @dataclass(frozen=True)
@@ -60,27 +93,25 @@ class _Chord:
     @property
     def bow(self) -> Array:
         """By which share the cubic is longer than its chord."""
-        return (2.0 * self.a**2 - self.a * self.b + 2.0 * self.b**2) / 30.0
+        return _BOW.value(self.a, self.b)
 
     @property
     def arc_v(self) -> Array:
         """Derivatives of the arc A = l (1 + bow) by l, a, b, shape (n, 3)."""
         a, b, l = self.a, self.b, self.l  # noqa: E741
-        return np.stack((1.0 + self.bow, l * (4.0 * a - b) / 30.0, l * (4.0 * b - a) / 30.0), axis=1)
+        return np.stack((1.0 + self.bow, l * _BOW.by_first(a, b), l * _BOW.by_first(b, a)), axis=1)
+
+
+def arc_length(q: Array) -> Array:
+    """Return the length along every element, for coordinates (n, 6) [m]."""
+    chord = _Chord.of(q)
+    return chord.l * (1.0 + chord.bow)
 
 
 def axial_force(q: Array, L: Array, section: Section) -> Array:
     """Return the force EA eps |r'| along every element [N], for coordinates (n, 6) and lengths (n,)."""
-    chord = _Chord.of(q)
-    stretch = chord.l * (1.0 + chord.bow) / L
+    stretch = arc_length(q) / L
     return 0.5 * section.EA * (stretch * stretch - 1.0) * stretch
-
-
-def end_moments(q: Array, section: Section) -> Array:
-    """Return the moments EJ kappa at both ends of every element [N m], shape (n, 2)."""
-    chord = _Chord.of(q)
-    factor = 2.0 * section.EJ / chord.l
-    return np.stack((-factor * (2.0 * chord.a + chord.b), factor * (chord.a + 2.0 * chord.b)), axis=1)
 
 
 def force(q: Array, L: Array, section: Section) -> Array:
@@ -103,13 +134,18 @@ def force(q: Array, L: Array, section: Section) -> Array:
     Notes
     -----
     With the chord's length l and angle beta and the end rotations :math:`a = \theta_i - \beta`,
-    :math:`b = \theta_j - \beta`, the cubic between the nodes has the arc
-    :math:`A = l\,(1 + (2a^2 - ab + 2b^2)/30)`. One Green strain for the whole element, as of eq. (9), and
-    the curvature of the cubic give
+    :math:`b = \theta_j - \beta`, the cubic between the nodes has the arc A, and one Green strain, as of eq. (9),
+    belongs to the whole element:
 
-    .. math:: \Pi = \tfrac12 EA\,L\,\varepsilon^2 + \frac{2EJ\,L}{l^2}(a^2 + ab + b^2)
-              + wL\left(\frac{z_i + z_j}{2} + \frac{(x_j - x_i)(a - b)}{12}\right),\qquad
-              \varepsilon = \frac{(A/L)^2 - 1}{2}.
+    .. math::
+        A &= l\,\left(1 + \tfrac{1}{30}(2a^2 - ab + 2b^2) + O(a^4)\right),\qquad
+        \varepsilon = \tfrac12\left((A/L)^2 - 1\right)
+
+        \Pi &= \tfrac12 EA\,L\,\varepsilon^2 + \frac{2EJ\,L}{l^2}\left(a^2 + ab + b^2 + O(a^4)\right)
+              + wL\left(\frac{z_i + z_j}{2} + \frac{(x_j - x_i)(a - b)}{12}\right).
+
+    Terms of fourth order are those of the cubic in the arc length; without them nodes are out of balance by
+    some tenths of a newton beside supports.
 
     References
     ----------
@@ -118,7 +154,8 @@ def force(q: Array, L: Array, section: Section) -> Array:
     chord = _Chord.of(q)
     a, b = chord.a, chord.b
     bend = 2.0 * section.EJ * L / chord.l**2
-    bending = np.stack((-2.0 * (a * a + a * b + b * b) / chord.l, 2.0 * a + b, a + 2.0 * b), axis=1)
+    shape = -2.0 * _BENDING.value(a, b) / chord.l, _BENDING.by_first(a, b), _BENDING.by_first(b, a)
+    bending = np.stack(shape, axis=1)
     inner = axial_force(q, L, section)[:, None] * chord.arc_v + bend[:, None] * bending
     turned = (q[:, 2] - q[:, 5])[:, None]
     weight = _UP + (turned * _ALONG + chord.dx[:, None] * (_LEVEL_I - _LEVEL_J)) / 12.0
@@ -159,15 +196,16 @@ def tangent(q: FloatArray, L: FloatArray, section: Section) -> tuple[FloatArray,
 
 
 def _bending(chord: _Chord, EJL: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return gradient (n, 3) and Hessian (n, 3, 3) of 2 EJ L (a^2 + ab + b^2)/l^2 by l, a, b."""
+    """Return gradient (n, 3) and Hessian (n, 3, 3) of 2 EJ L (a^2 + ab + b^2 + ...)/l^2 by l, a, b."""
     a, b, l = chord.a, chord.b, chord.l  # noqa: E741
-    c, square = 2.0 * EJL / l**2, a * a + a * b + b * b
-    by_a, by_b = c * (2.0 * a + b), c * (a + 2.0 * b)
+    c, square = 2.0 * EJL / l**2, _BENDING.value(a, b)
+    by_a, by_b = c * _BENDING.by_first(a, b), c * _BENDING.by_first(b, a)
+    mixed = c * _BENDING.mixed(a, b)
     gradient = np.stack((-2.0 * c * square / l, by_a, by_b), axis=1)
     rows = (
         (6.0 * c * square / l**2, -2.0 * by_a / l, -2.0 * by_b / l),
-        (-2.0 * by_a / l, 2.0 * c, c),
-        (-2.0 * by_b / l, c, 2.0 * c),
+        (-2.0 * by_a / l, c * _BENDING.twice(a, b), mixed),
+        (-2.0 * by_b / l, mixed, c * _BENDING.twice(b, a)),
     )
     return gradient, np.stack([np.stack(row, axis=1) for row in rows], axis=1)
 
@@ -175,8 +213,8 @@ def _bending(chord: _Chord, EJL: FloatArray) -> tuple[FloatArray, FloatArray]:
 def _arc_vv(chord: _Chord) -> FloatArray:
     """Return the second derivatives of the arc by l, a, b, shape (n, 3, 3)."""
     a, b, l, o = chord.a, chord.b, chord.l, np.zeros_like(chord.l)  # noqa: E741
-    by_a, by_b = (4.0 * a - b) / 30.0, (4.0 * b - a) / 30.0
-    rows = ((o, by_a, by_b), (by_a, 4.0 * l / 30.0, -l / 30.0), (by_b, -l / 30.0, 4.0 * l / 30.0))
+    by_a, by_b, mixed = _BOW.by_first(a, b), _BOW.by_first(b, a), l * _BOW.mixed(a, b)
+    rows = ((o, by_a, by_b), (by_a, l * _BOW.twice(a, b), mixed), (by_b, mixed, l * _BOW.twice(b, a)))
     return np.stack([np.stack(row, axis=1) for row in rows], axis=1)
 
 

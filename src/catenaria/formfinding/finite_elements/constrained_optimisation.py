@@ -22,8 +22,6 @@ from catenaria.results.form import FormResult
 
 FloatArray = NDArray[np.float64]
 
-NEGLECTS = "the third direction"
-
 _ROUNDS = 200
 _PRECISION = 1e-9  # m: change of the objective, and sum of all constraints
 

@@ -100,9 +100,7 @@ def found_state(state: LineState, how: str, rounds: int, solves: int) -> Found:
     """Return what a line at rest amounts to."""
     wires = state.system.contact, state.system.messenger
     parts = zip(wires, state.system.parts(state.y), strict=True)
-    contact, messenger = (
-        WireShape(wire.mesh, wire.coordinates(y), wire.unstressed(y)) for wire, y in parts
-    )
+    contact, messenger = (WireShape(wire.mesh, wire.coordinates(y), wire.unstressed(y)) for wire, y in parts)
     return Found(
         contact, messenger, state.system.bars, state.unstressed, how, rounds, state.iterations, solves
     )

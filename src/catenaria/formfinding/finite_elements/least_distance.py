@@ -20,8 +20,6 @@ from catenaria.results.form import FormResult
 
 FloatArray = NDArray[np.float64]
 
-NEGLECTS = "the third direction"
-
 
 def minimise_distance(line: Line, start: FormResult | None) -> Found:
     r"""Find the dropper lengths for which :math:`\sum_i (z_i - z_i^*)^2` is least, and zero.

@@ -21,8 +21,6 @@ from catenaria.results.form import FormResult
 
 FloatArray = NDArray[np.float64]
 
-NEGLECTS = "the third direction"
-
 
 def minimise_force_error(line: Line, start: FormResult | None) -> Found:
     r"""Find the dropper lengths for which :math:`\sum_i (F_i - F_i^*)^2` is least, and zero.

@@ -20,8 +20,6 @@ from catenaria.results.form import FormResult
 
 FloatArray = NDArray[np.float64]
 
-NEGLECTS = "the third direction"
-
 TENSION, HEIGHT = 1e-3, 1e-3  # relative tension, and metres, that weigh the same
 
 

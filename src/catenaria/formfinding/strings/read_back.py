@@ -156,7 +156,7 @@ def _sample(wire: StringWire, string: StringAtRest) -> _Sampled:
 
 def _wire_form(wire: StringWire, string: StringAtRest) -> WireForm:
     sampled = _sample(wire, string)
-    first, last = (string.support[[0, -1]] * _SAMPLES).tolist()
+    first, last = (_SAMPLES * int(i) for i in string.support[[0, -1]])
     between = slice(first, last + 1)
     ds = np.diff(sampled.s[between])
     tensions = sampled.size[between]
@@ -166,7 +166,9 @@ def _wire_form(wire: StringWire, string: StringAtRest) -> WireForm:
     hung = string.support
     if wire.name == "contact wire":
         hung = np.sort(np.concatenate((string.support, string.clamp)))
-    chord: FloatArray = np.interp(sampled.r[between, 0], string.r[hung, 0], string.r[hung, 2])
+    x, _, z = sampled.r[between].T.copy()
+    at, _, up = string.r[hung].T.copy()
+    chord = np.asarray(np.interp(x, at, up), dtype=np.float64)
     return WireForm(
         name=wire.name,
         unstressed_length=float(sampled.s[last] - sampled.s[first]),
@@ -184,7 +186,7 @@ def _wire_form(wire: StringWire, string: StringAtRest) -> WireForm:
         tension_max=float(tensions.max()),
         tension_mean=float(0.5 * ds @ (tensions[:-1] + tensions[1:]) / ds.sum()),
         travel=float(string.r[-1, 0] - wire.support_x[-1]) - wire.tail,
-        sag=float(np.max(chord - sampled.r[between, 2], initial=0.0)),
+        sag=float(np.max(chord - z, initial=0.0)),
         profile=_profile(sampled),
         start_x=np.array([wire.support_x[0] - wire.tail, wire.support_x[-1] + wire.tail]),
         start_z=wire.support_z[[0, -1]],

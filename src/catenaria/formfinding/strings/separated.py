@@ -39,8 +39,8 @@ def find_rest(task: StringLine) -> Solved:
     a beam, W_l to the left and W_r to the right end, and its chord the vertical force S = H d/h of the rise
     d; the dropper's force is what is missing at the joint, F = W_r + W_l' + S - S'. The messenger carries
     these forces and the droppers' weights; its chords have S = S_0 + the sum of all loads before, with S_0
-    such that the rises d = S h/H add up to that between the supports. What depends on slopes and tension (weight
-    along the track, H, dropper lengths) settles in some passes.
+    such that the rises d = S h/H add up to that between the supports. What depends on slopes and tension
+    (weight along the track, H, dropper lengths) settles in some passes.
 
     References
     ----------
