@@ -59,6 +59,13 @@ def test_what_cannot_be_built_is_refused(vary: Vary, change: Change, message: st
         solve(vary(change), method=method)
 
 
+@pytest.mark.parametrize("change", [spans(DEEP), SHORT], ids=["pushed", "pushed hard"])
+def test_frictionless_droppers_in_compression_are_named_too(vary: Vary, change: Change) -> None:
+    """Such a wire is not found, because a dropper that pushes topples; a taut wire says why."""
+    with pytest.raises(InfeasibleError, match="compression"):
+        solve(vary(change | {"dropper.joint": "frictionless"}))
+
+
 @pytest.mark.parametrize("change", FEASIBLE.values(), ids=FEASIBLE)
 def test_what_can_just_be_built_is_not_refused(vary: Vary, change: Change) -> None:
     droppers = solve(vary(change)).droppers

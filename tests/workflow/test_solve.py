@@ -14,7 +14,7 @@ import pytest
 from catenaria.errors import InconsistentInputError, LineFileError, NotConvergedError, UnsupportedError
 from catenaria.line import Line, Mesh
 from catenaria.results import NOT_REBUILT, FormResult
-from catenaria.workflow import METHODS, Progress, Rebuild, solve
+from catenaria.workflow import METHODS, NEGLECTS, Progress, Rebuild, solve
 
 Vary = Callable[[dict[str, Any]], Line]
 
@@ -40,6 +40,19 @@ def test_direct_is_the_default(small: Line, small_result: FormResult) -> None:
     assert small_result.histories == ()
 
 
+BENT = ("direct", "dynamic")  # methods whose results have nodes, to be rebuilt and to begin from
+
+
+def test_what_each_method_neglects_is_said() -> None:
+    assert list(NEGLECTS) == list(METHODS)
+    assert all(NEGLECTS.values())
+
+
+def test_strings_are_not_rebuilt(small: Line) -> None:
+    result = solve(small, method="force density", rebuild="static")
+    assert (result.audit.passed, result.rebuilt) == (True, NOT_REBUILT)
+
+
 @pytest.mark.parametrize("method", ["", "Direct", "newton"])
 def test_an_unknown_method_is_refused_with_those_there_are(small: Line, method: str) -> None:
     with pytest.raises(UnsupportedError) as refusal:
@@ -49,7 +62,7 @@ def test_an_unknown_method_is_refused_with_those_there_are(small: Line, method: 
 
 
 @pytest.mark.parametrize("rebuild", ["static", "relaxation"])
-@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("method", BENT)
 def test_every_result_is_rebuilt_as_asked(small: Line, method: str, rebuild: Rebuild) -> None:
     rebuilt = solve(small, method=method, rebuild=rebuild).rebuilt
     assert (rebuilt.way, rebuilt.passed) == (rebuild, True)
@@ -116,7 +129,7 @@ def stages(heard: list[Progress]) -> list[tuple[str, int]]:
     return [name for name, _ in groupby(names)]
 
 
-@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("method", BENT)
 def test_stages_are_told_in_order(small: Line, method: str) -> None:
     heard: list[Progress] = []
     solve(small, method=method, progress=heard.append)
@@ -160,8 +173,8 @@ def test_a_listener_that_fails_ends_the_run(small: Line) -> None:
         solve(small, method="dynamic", progress=failing)
 
 
-@pytest.mark.parametrize("first", METHODS)
-@pytest.mark.parametrize("second", METHODS)
+@pytest.mark.parametrize("first", BENT)
+@pytest.mark.parametrize("second", BENT)
 def test_each_method_starts_from_each(small: Line, first: str, second: str) -> None:
     """The second run has next to nothing to do."""
     begun = solve(small, method=first)
@@ -171,7 +184,7 @@ def test_each_method_starts_from_each(small: Line, first: str, second: str) -> N
     assert work <= max(counter.steps for counter in solve(small, method=second).counters)
 
 
-@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("method", BENT)
 def test_a_start_of_another_line_is_refused(
     vary: Vary, small_result: FormResult, example: Path, method: str
 ) -> None:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,7 +30,7 @@ class FreeBeam(FreeWire):
 
     @cached_property
     def residual(self) -> FloatArray:
-        """Residual of every node: forces [N], and moments per slope across the wire [N m], shape (n, 2, 3)."""
+        """Residual of every node: forces [N], and moments per slope across the wire [N m], (n, 2, 3)."""
         curve = self.curve
         element = beam_force(curve, self.stated.conductor)
         element -= weight(curve, self.stated.conductor.rhoA, self.gravity)
@@ -44,9 +45,8 @@ class FreeBeam(FreeWire):
     @cached_property
     def mean_stretch(self) -> FloatArray:
         """Stretched over unstressed length of every element."""
-        s = self.curve.s.tolist()
-        pairs = zip(s[:-1], s[1:], strict=True)
-        return np.array([self.curve.stretched_length(a, b) for a, b in pairs]) / self.curve.L
+        pairs = pairwise(self.curve.s.tolist())
+        return np.array([self.curve.stretched_length(*pair) for pair in pairs]) / self.curve.L
 
     @property
     def mean_tension(self) -> FloatArray:

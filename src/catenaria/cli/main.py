@@ -7,6 +7,7 @@ from typing import Annotated
 import typer
 
 from catenaria import __version__
+from catenaria.cli.compare import compare
 from catenaria.cli.describe import check, schema
 from catenaria.cli.solve import solve
 from catenaria.cli.validate import validate
@@ -22,6 +23,7 @@ app.command()(solve)
 app.command()(check)
 app.command()(schema)
 app.command()(validate)
+app.command()(compare)
 
 
 def _show_version(wanted: bool) -> None:

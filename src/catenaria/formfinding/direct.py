@@ -10,10 +10,12 @@ from dataclasses import dataclass
 from time import perf_counter
 
 from catenaria.discretise.from_line import contact_wire_setup, messenger_wire_setup
+from catenaria.errors import NotConvergedError, SingularError
 from catenaria.formfinding.find_wire import find_wire
 from catenaria.formfinding.progress import Listener, Progress
 from catenaria.formfinding.refusals import dropper_names, refuse_compression
 from catenaria.formfinding.third_step import gather
+from catenaria.formfinding.wire_task import guessed_clamps
 from catenaria.line import Line
 from catenaria.results.form import FormResult
 
@@ -56,7 +58,12 @@ class Direct:
         begin = perf_counter()
         self._tell("contact wire", 1, begin)
         names = dropper_names(line)
-        contact = find_wire(contact_wire_setup(line), names, start)
+        setup = contact_wire_setup(line)
+        try:
+            contact = find_wire(setup, names, start)
+        except (NotConvergedError, SingularError):
+            refuse_compression(line, guessed_clamps(setup, names))  # the likely reason, if a taut wire has it
+            raise
         below = contact.clamped
         refuse_compression(line, below)
         self._tell("messenger wire", 2, begin)

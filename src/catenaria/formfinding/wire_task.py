@@ -82,6 +82,12 @@ def wire_with_cables_task(setup: WireSetup, names: tuple[str, ...]) -> WireTask:
     )
 
 
+def guessed_clamps(setup: WireSetup, names: tuple[str, ...]) -> Clamped:
+    """Return what a taut wire would be clamped with, for lines that are not found."""
+    task = wire_alone_task(setup, names)
+    return task.clamped(task.guess(task.hung))
+
+
 def _wire_parts(hung: HungWire) -> list[tuple[str, NDArray[np.int64]]]:
     wire = hung.setup.name
     supports = np.concatenate((hung.support_s, hung.support_force.ravel()))

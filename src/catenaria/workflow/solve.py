@@ -9,18 +9,15 @@ from typing import Literal, get_args
 
 from catenaria.audit import audit_result
 from catenaria.errors import NotConvergedError, UnsupportedError
-from catenaria.formfinding.direct import Direct
-from catenaria.formfinding.dynamic_equilibrium import DynamicEquilibrium
 from catenaria.formfinding.progress import Listener, Progress
 from catenaria.formfinding.rebuild import Way
 from catenaria.formfinding.rebuild import rebuild as rebuild_line
 from catenaria.line import Line, Mesh, load_line, refuse_unsupported, with_mesh
 from catenaria.mechanics.kernels.warm_up import need_compiling, warm_up
 from catenaria.results.form import FormResult
+from catenaria.workflow.methods import METHODS
 
 Rebuild = Literal["static", "relaxation", "none"]
-
-METHODS = {"direct": Direct, "dynamic": DynamicEquilibrium}
 
 
 def solve(
@@ -44,7 +41,8 @@ def solve(
     progress : callable, optional
         Receives a `Progress` after every time step.
     rebuild : {"static", "relaxation", "none"}
-        Whether a line is built from the found lengths, and how it is brought to rest.
+        Whether a line is built from the found lengths, and how it is brought to rest. The line that is built
+        has wires as in `mechanics`; results with other wires than these have no rebuild.
     mesh : Mesh, optional
         The fields that are given in it replace those of the line, as in `Mesh(refine=2)`.
 
@@ -78,7 +76,7 @@ def solve(
         warm_up()
     result = METHODS[method](progress).find_form(line, start)
     result = replace(result, audit=audit_result(result))
-    if rebuild == "none":
+    if rebuild == "none" or result.physics != "bending":
         return result
     if progress is not None:
         progress(Progress("rebuild", 3, 3, elapsed=perf_counter() - begin))

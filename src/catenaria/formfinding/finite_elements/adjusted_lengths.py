@@ -52,14 +52,15 @@ def adjust_lengths(line: Line, start: FormResult | None) -> Found:
     system = LineSystem.of(line)
     y, unstressed = first_guess(system, start)
     state = come_to_rest(system, unstressed, y)
+    error = state.height - system.target
     for rounds in range(_ROUNDS):
-        error = state.height - system.target
         if np.max(np.abs(error)) < _TOLERANCE:
             how = f"lengths were adjusted in {rounds} rounds with {state.iterations} Newton iterations"
             return found_state(state, how, rounds, rounds + 1)
         change = -np.linalg.solve(state.height_by_parameter, error)
         guess = state.y + state.by_parameter @ change
         state = come_to_rest(system, state.unstressed + change, guess, state.iterations)
+        error = state.height - system.target
     raise NotConvergedError(
         f"the heights are still {np.max(np.abs(error)):.3g} m off after {_ROUNDS} adjustments",
         "--method direct",

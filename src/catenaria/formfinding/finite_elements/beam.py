@@ -134,8 +134,8 @@ def force(q: Array, L: Array, section: Section) -> Array:
     Notes
     -----
     With the chord's length l and angle beta and the end rotations :math:`a = \theta_i - \beta`,
-    :math:`b = \theta_j - \beta`, the cubic between the nodes has the arc A, and one Green strain, as of eq. (9),
-    belongs to the whole element:
+    :math:`b = \theta_j - \beta`, the cubic between the nodes has the arc A, and one Green strain, as of
+    eq. (9), belongs to the whole element:
 
     .. math::
         A &= l\,\left(1 + \tfrac{1}{30}(2a^2 - ab + 2b^2) + O(a^4)\right),\qquad
@@ -187,9 +187,9 @@ def tangent(q: FloatArray, L: FloatArray, section: Section) -> tuple[FloatArray,
     f_L = -(modulus * stretch / L)[:, None] * chord.arc_v + inner / L[:, None]
     stiffness = stiffness + (modulus / L)[:, None, None] * _outer(chord.arc_v, chord.arc_v)
     stiffness = stiffness + N[:, None, None] * _arc_vv(chord)
-    K = v_q.swapaxes(1, 2) @ stiffness @ v_q + _of_frame(chord, inner + pull)
+    turning = v_q.swapaxes(1, 2) @ stiffness @ v_q + _of_frame(chord, inner + pull)
     twist = np.outer(_ALONG, _LEVEL_I - _LEVEL_J)
-    K += section.weight * L[:, None, None] * (twist + twist.T) / 12.0
+    K = turning + section.weight * L[:, None, None] * (twist + twist.T) / 12.0
     turned = (q[:, 2] - q[:, 5])[:, None]
     weight = _UP + (turned * _ALONG + chord.dx[:, None] * (_LEVEL_I - _LEVEL_J)) / 12.0
     return K, np.einsum("nv,nvi->ni", f_L, v_q) + section.weight * weight

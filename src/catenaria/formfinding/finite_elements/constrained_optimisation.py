@@ -48,8 +48,8 @@ def optimise_under_constraints(line: Line, start: FormResult | None) -> Found:
     .. math:: \min_p \tfrac12 |p - p_0|^2 \quad\text{subject to}\quad z_i(p) = z_i^*,\; T_c(p) = T_c^*,\;
               T_m(p) = T_m^*,
 
-    by sequential quadratic programming. There are as many constraints as lengths, so that the constraints alone
-    decide and the objective only picks the way: the search is Newton's method in another dress. Its
+    by sequential quadratic programming. There are as many constraints as lengths, so that the constraints
+    alone decide and the objective only picks the way: the search is Newton's method in another dress. Its
     dense matrices make it slow beyond some hundred droppers.
 
     References
@@ -79,7 +79,7 @@ def optimise_under_constraints(line: Line, start: FormResult | None) -> Found:
             parameters,
             jac=lambda p: p - parameters,
             method="SLSQP",
-            constraints=[{"type": "eq", "fun": demands, "jac": derivative}],
+            constraints=cast("Any", [{"type": "eq", "fun": demands, "jac": derivative}]),
             options={"ftol": _PRECISION, "maxiter": _ROUNDS},
         ),
     )

@@ -36,8 +36,8 @@ def displace_nonlinearly(line: Line, start: FormResult | None) -> Found:
 
     Notes
     -----
-    :math:`(K_E + K_G)\,\Delta x = f - B N^*`, then lengths are cut so that the forces are N* again. The elastic
-    part resists what cutting lets go, so that the error goes down by a factor a round, which is about
+    :math:`(K_E + K_G)\,\Delta x = f - B N^*`, then lengths are cut so that the forces are N* again. The
+    elastic part resists what cutting lets go, so that the error goes down by a factor a round, which is about
     :math:`EA\,z'^2/T` over one plus that for a slope z' of the wire.
     """
     return vary(line, start, tangent_stiffness, "the line was displaced and cut")

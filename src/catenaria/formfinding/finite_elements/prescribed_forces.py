@@ -11,7 +11,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse.linalg import splu  # pyright: ignore
 
 from catenaria.errors import NotConvergedError
 from catenaria.formfinding.finite_elements import beam
@@ -19,7 +18,7 @@ from catenaria.formfinding.finite_elements.beam import Section
 from catenaria.formfinding.finite_elements.dropper import Bars
 from catenaria.formfinding.finite_elements.found import Found, WireShape
 from catenaria.formfinding.finite_elements.line_system import LineSystem
-from catenaria.formfinding.finite_elements.sparse import Matrix, matrix
+from catenaria.formfinding.finite_elements.sparse import Matrix, matrix, solve
 from catenaria.formfinding.finite_elements.start import first_guess
 from catenaria.formfinding.finite_elements.wire_system import WireSystem
 from catenaria.line import Line
@@ -125,7 +124,7 @@ def _step(course: _Course, system: WireSystem, load: FloatArray, stiffness: Stif
         np.searchsorted(system.free % 3, 1) :
     ]  # z and angles: places along the track are given
     K = _assembled(stiffness(shape.element_q, shape.unstressed, mesh.section), mesh.x.size)
-    moved = -splu(K[free][:, free].tocsc()).solve(force.reshape(-1)[free])
+    moved = -solve(K[free][:, free], force.reshape(-1)[free])
     q = shape.q.copy()
     q.reshape(-1)[free] += moved
     shape = replace(shape, q=q)
@@ -145,11 +144,11 @@ def _cut(course: _Course) -> WireShape:
     knots[[0, -1]] += further * np.array([-1.0, 1.0])
     q = shape.q.copy()
     q[:, 0] = np.interp(mesh.x, mesh.x[mesh.knots], knots)
-    element, L = np.hstack((q[:-1], q[1:])), shape.unstressed
+    element, lengths = np.hstack((q[:-1], q[1:])), shape.unstressed
     for _ in range(_CUTS):
-        _, f_L = beam.tangent(element, L, mesh.section)
-        L = L - (beam.force(element, L, mesh.section)[:, 3] - H) / f_L[:, 3]
-    return WireShape(mesh, q, L)
+        _, f_L = beam.tangent(element, lengths, mesh.section)
+        lengths = lengths - (beam.force(element, lengths, mesh.section)[:, 3] - H) / f_L[:, 3]
+    return WireShape(mesh, q, lengths)
 
 
 def _horizontal(course: _Course) -> FloatArray:

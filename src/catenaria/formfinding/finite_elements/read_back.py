@@ -88,7 +88,8 @@ def _profile(shape: WireShape) -> Profile:
     s = _closed(shape.s[:-1, None] + shape.unstressed[:, None] * at)
     r, r1, r2 = (_hermite(shape, 2.0 * at - 1.0, function) for function in _FUNCTIONS)
     size = np.hypot(r1[..., 0], r1[..., 1])
-    bend = shape.mesh.section.EJ * (r1[..., 0] * r2[..., 1] - r1[..., 1] * r2[..., 0]) / size**3
+    kappa = np.abs(r1[..., 0] * r2[..., 1] - r1[..., 1] * r2[..., 0]) / size**3
+    bend = shape.mesh.section.EJ * kappa
     bend[:-1, -1] = bend[1:, 0] = 0.5 * (bend[:-1, -1] + bend[1:, 0])
     x, z = _closed(r[..., 0]), _closed(r[..., 1])
     tension, strain_tension = (np.interp(s, *_along(shape, values)) for values in _tensions(shape))
@@ -100,7 +101,7 @@ def _profile(shape: WireShape) -> Profile:
         tension=tension,
         strain_tension=strain_tension,
         horizontal=tension * _closed(r1[..., 0] / size),
-        moment=np.abs(_closed(bend)),
+        moment=_closed(bend),
     )
 
 
@@ -140,7 +141,7 @@ def _bent(form: WireForm, shape: WireShape) -> WireForm:
     force, arc = _tensions(shape)[0][between], beam.arc_length(shape.element_q)[between]
     hung = mesh.joint if mesh.name == "contact wire" else mesh.support
     inside = slice(_SAMPLES * int(hung[0]), _SAMPLES * int(hung[-1]) + 1)
-    chord = np.interp(profile.x[inside], *shape.q[hung, :2].T)
+    chord: FloatArray = np.interp(profile.x[inside], shape.q[hung, 0], shape.q[hung, 1])
     return replace(
         form,
         stretched_length=float(arc.sum()),

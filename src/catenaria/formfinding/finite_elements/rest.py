@@ -7,11 +7,10 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse.linalg import splu  # pyright: ignore
 
 from catenaria.errors import NotConvergedError
 from catenaria.formfinding.finite_elements.line_system import LineSystem
-from catenaria.formfinding.finite_elements.sparse import Matrix
+from catenaria.formfinding.finite_elements.sparse import Matrix, solve
 from catenaria.solvers.newton import NewtonOptions, solve_newton
 
 FloatArray = NDArray[np.float64]
@@ -93,7 +92,7 @@ class LineState:
             travel = np.zeros((self.system.size, 2))
             travel[[self.system.contact.size - 1, -1], [0, 1]] = -1.0
             given = np.hstack((given, travel))
-        return -splu(self.system.jacobian(self.y, self.unstressed).tocsc()).solve(given)
+        return -solve(self.system.jacobian(self.y, self.unstressed), given)
 
     @property
     def height_by_parameter(self) -> FloatArray:

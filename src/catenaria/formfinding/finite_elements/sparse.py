@@ -7,6 +7,7 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import block_diag, csr_array  # pyright: ignore
+from scipy.sparse.linalg import splu  # pyright: ignore
 
 Matrix = Any  # SciPy's csr_array
 
@@ -21,3 +22,8 @@ def matrix(
 def diagonal_blocks(first: Matrix, second: Matrix) -> Matrix:
     """Return the matrix with these two on its diagonal."""
     return cast("Matrix", block_diag((first, second), format="csr"))
+
+
+def solve(system: Matrix, right: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the solution of a square system for one or several right-hand sides, shape (n,) or (n, k)."""
+    return cast("Any", splu(system.tocsc())).solve(right)

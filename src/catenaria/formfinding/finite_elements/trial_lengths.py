@@ -48,12 +48,13 @@ def try_lengths(line: Line, start: FormResult | None) -> Found:
     system = LineSystem.of(line)
     y, unstressed = first_guess(system, start)
     state = come_to_rest(system, unstressed, y)
+    error = state.height - system.target
     for trial in range(_TRIALS):
-        error = state.height - system.target
         if np.max(np.abs(error)) < _TOLERANCE:
             how = f"{trial} trials of all lengths took {state.iterations} Newton iterations"
             return found_state(state, how, trial, trial + 1)
         state = come_to_rest(system, state.unstressed + error, state.y, state.iterations)
+        error = state.height - system.target
     raise NotConvergedError(
         f"the heights are still {np.max(np.abs(error)):.3g} m off after {_TRIALS} trials",
         "--method adjusted-lengths, which knows what every length does",
