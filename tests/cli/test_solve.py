@@ -148,6 +148,13 @@ def test_failures_become_messages_and_exit_codes(
     assert "Written to" not in outcome.stdout
 
 
+def test_too_many_elements_for_the_memory_are_told(workflow: Any) -> None:
+    workflow.solve_failure = MemoryError()
+    outcome = run("a.yaml")
+    assert (outcome.exit_code, workflow.written) == (1, [])
+    assert outcome.stderr == "There is not enough memory for this. Try: fewer elements, see solver.mesh\n"
+
+
 def test_an_unforeseen_error_is_not_hidden(workflow: Any) -> None:
     """Negative control of the messages above: a bug keeps its traceback."""
     workflow.solve_failure = ZeroDivisionError("bug")

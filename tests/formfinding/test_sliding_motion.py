@@ -32,6 +32,7 @@ def setup(tension: float, largest: float) -> WireSetup:
         guided=True,
         target=np.zeros(2),
         law=VelocityLaw(2e-3, 1e-6, 1e-3),
+        foot_x=np.zeros(2),
         foot_height=np.zeros(2),
         clamps_mass=0.0,
     )

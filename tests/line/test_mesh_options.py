@@ -104,3 +104,8 @@ def test_a_mesh_is_checked_in_python_too() -> None:
     wrong: Any = {"refine": 0}
     with pytest.raises(ValueError, match="greater than or equal to 1"):
         Mesh(**wrong)
+
+
+def test_only_another_name_is_a_slip_of_the_pen() -> None:
+    assert told("refin=2")[0].endswith("(did you mean refine?)")
+    assert "did you mean" not in told("refine")[0]

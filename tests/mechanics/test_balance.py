@@ -34,12 +34,12 @@ def test_sum_of_the_forces_on_one_dropper() -> None:
 
 def test_agrees_with_the_measure_of_two_steps() -> None:
     """With the lower force and end known beforehand, it is T_md - G against the target T_cd."""
-    known = DropperForce(
-        np.array([0]), np.array([2]), np.array([0.01]), 0.089, np.array([0.2]), 9.8, Ramp(2.0)
-    )
-    np.testing.assert_allclose(balance(mass=0.2).value(1.0, Z), known.value(1.0, Z) - Z[1], rtol=1e-13)
+    top, bottom = np.array([[4, 5, 2]]), np.array([[0.0, 0.0, 0.01]])
+    known = DropperForce(np.array([0]), top, bottom, 0.089, np.array([0.2]), 9.8, Ramp(2.0))
+    expected = known.value(1.0, np.append(Z, [0.0, 0.0])) - Z[1]
+    np.testing.assert_allclose(balance(mass=0.2).value(1.0, Z), expected, rtol=1e-13)
     with pytest.raises(AssertionError):
-        np.testing.assert_allclose(balance().value(1.0, Z), known.value(1.0, Z) - Z[1], rtol=1e-3)
+        np.testing.assert_allclose(balance().value(1.0, Z), expected, rtol=1e-3)
 
 
 def test_signs_of_joints() -> None:

@@ -81,7 +81,9 @@ def dropper_loop(lay_wire: Lay, up: bool) -> Loop:
             p, Height(inner[:, 2]), np.array([5.05]), VelocityLaw(0.02, 1e-3, 0.1), Ramp(5.0), Ramp(0.0)
         )
     else:
-        measure = DropperForce(la[3:, 2], inner[:, 2], np.array([3.9]), 0.2, np.zeros(1), 9.8, Ramp(5.0))
+        measure = DropperForce(
+            la[3:, 2], inner, np.array([[4.0, 0.0, 3.9]]), 0.2, np.zeros(1), 9.8, Ramp(5.0)
+        )
         control = Controls(p, measure, np.array([40.0]), VelocityLaw(0.02, 0.2, 50.0), Ramp(5.0), Ramp(5.0))
     elements = CableElements.of([wire, cable])
     gravity = Gravity(elements.weight(table.size), 9.8, Ramp(5.0))

@@ -152,7 +152,7 @@ def force_balance() -> ForceBalance:
 
 
 def dropper() -> DropperForce:
-    return DropperForce(LA[[2, 5]], OTHER[:, 2], np.array([-0.4, 0.3]), 0.2, np.array([0.3, 0.5]), 9.81, RAMP)
+    return DropperForce(LA[[2, 5]], OTHER[:, :3], 0.3 * UNIT, 0.2, np.array([0.3, 0.5]), 9.81, RAMP)
 
 
 def hung_force() -> HungForce:

@@ -92,8 +92,18 @@ def test_height() -> None:
     np.testing.assert_array_equal(Height(np.array([3, 1])).value(0.0, z), [4.0, 2.0])
 
 
+def test_a_leaning_dropper_weighs_by_its_length() -> None:
+    """3 m, 4 m and 0 m apart: 5 m long."""
+    one, top = np.array([0]), np.array([[1, 2, 3]])
+    measure = DropperForce(one, top, np.array([[1.0, 0.0, 1.0]]), 0.1, np.zeros(1), 10.0, Ramp(0.0))
+    assert measure.value(0.0, np.array([50.0, 4.0, 0.0, 5.0]))[0] == pytest.approx(45.0)
+    assert measure.value(0.0, np.array([50.0, 1.0, 0.0, 5.0]))[0] == pytest.approx(
+        46.0
+    )  # if it does not lean
+
+
 def check_dropper(value: np.ndarray, T_md: float, z_md: float, t: float) -> None:
-    """T_md - G with G = g(t) (rhoA (z_md - z_cd) + mass): 0.117 kg/m, 0.165 kg, z_cd = 5.3, ramp of 2 s."""
+    """T_md - G with G = g(t) (rhoA |r_md - r_cd| + mass): 0.117 kg/m, 0.165 kg, z_cd = 5.3, ramp of 2 s."""
     ramp = (t / 2.0) ** 2 * (3.0 - t) if t < 2.0 else 1.0
     np.testing.assert_allclose(value, T_md - 9.8 * ramp * (0.117 * (z_md - 5.3) + 0.165), rtol=1e-13)
 
@@ -101,8 +111,9 @@ def check_dropper(value: np.ndarray, T_md: float, z_md: float, t: float) -> None
 @pytest.mark.parametrize("t", [0.0, 0.7, 2.0, 50.0])
 def test_dropper_force(t: float) -> None:
     one = np.array([0])
-    measure = DropperForce(one, one + 1, np.array([5.3]), 0.117, np.array([0.165]), 9.8, Ramp(2.0))
-    z = np.array([88.0, 6.35])
+    top, bottom = np.array([[1, 2, 3]]), np.array([[7.0, 0.0, 5.3]])
+    measure = DropperForce(one, top, bottom, 0.117, np.array([0.165]), 9.8, Ramp(2.0))
+    z = np.array([88.0, 7.0, 0.0, 6.35])
     check_dropper(measure.value(t, z), 88.0, 6.35, t)
     with pytest.raises(AssertionError):
         check_dropper(measure.value(t, z + 0.01), 88.0, 6.35, t)

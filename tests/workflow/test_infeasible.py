@@ -66,6 +66,27 @@ def test_frictionless_droppers_in_compression_are_named_too(vary: Vary, change: 
         solve(vary(change | {"dropper.joint": "frictionless"}))
 
 
+def near(*x: float) -> Change:
+    """Return a line whose droppers hold the contact wire level at the given places."""
+    line = spans(LEVEL)
+    return line | {"spans": (line["spans"][0] | {"droppers": {"positions": x}, "contact_wire_height": 0.0},)}
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [(near(10.0, 10.01, 30.0, 50.0), "too stiff"), (spans(DEEP), "a smaller pre-sag")],
+    ids=["a centimetre apart", "pre-sag"],
+)
+def test_stiffness_is_told_from_pre_sag(vary: Vary, change: Change, said: str) -> None:
+    """Level droppers are pushed by the stiffness of the wire, against which no lower tension helps."""
+    with pytest.raises(InfeasibleError, match=f"compression: .*{said}"):
+        solve(vary(change))
+
+
+def test_droppers_farther_apart_are_not_pushed(vary: Vary) -> None:
+    assert solve(vary(near(10.0, 11.0, 30.0, 50.0))).droppers.force_bottom.min() > 0.0
+
+
 @pytest.mark.parametrize("change", FEASIBLE.values(), ids=FEASIBLE)
 def test_what_can_just_be_built_is_not_refused(vary: Vary, change: Change) -> None:
     droppers = solve(vary(change)).droppers

@@ -42,6 +42,9 @@ def failures_reported() -> Generator[None, None, None]:
     except CatenariaError as error:
         complain(str(error))
         raise typer.Exit(NOT_CONVERGED) from error
+    except MemoryError as error:
+        complain("There is not enough memory for this. Try: fewer elements, see solver.mesh")
+        raise typer.Exit(NOT_CONVERGED) from error
 
 
 def complain(message: str) -> None:

@@ -24,7 +24,7 @@ def contact_wire_setup(line: Line) -> WireSetup:
         clamp_mass=line.dropper.clamp_mass_bottom,
         target=np.array(line.dropper_target_height),
         law=VelocityLaw(law.velocity, law.dead_band, law.saturation),
-        foot_height=np.zeros(len(line.dropper_x)),
+        foot=(np.array(line.dropper_x), np.zeros(len(line.dropper_x))),
     )
     held = [support for support in line.supports if support.contact_wire is not None]
     height = held[0].contact_wire.height if held[0].contact_wire else 0.0
@@ -34,7 +34,9 @@ def contact_wire_setup(line: Line) -> WireSetup:
     )
 
 
-def messenger_wire_setup(line: Line, foot_force: FloatArray, foot_height: FloatArray) -> WireSetup:
+def messenger_wire_setup(
+    line: Line, foot_force: FloatArray, foot_height: FloatArray, foot_x: FloatArray | None = None
+) -> WireSetup:
     """Return the second step: messenger wire with upper dropper cables, tension control and (23).
 
     Parameters
@@ -45,6 +47,8 @@ def messenger_wire_setup(line: Line, foot_force: FloatArray, foot_height: FloatA
         Forces T_cd that the droppers exert on the contact wire [N].
     foot_height : FloatArray, shape (n,)
         Heights of P_cd [m].
+    foot_x : FloatArray, shape (n,), optional
+        Where they are along the track [m], where the droppers are if this is not given.
     """
     law = line.solver.dynamic.dropper_force
     droppers = _droppers(
@@ -53,7 +57,7 @@ def messenger_wire_setup(line: Line, foot_force: FloatArray, foot_height: FloatA
         clamp_mass=line.dropper.clamp_mass_top,
         target=foot_force,
         law=VelocityLaw(law.velocity, law.dead_band, law.saturation),
-        foot_height=foot_height,
+        foot=(np.array(line.dropper_x) if foot_x is None else foot_x, foot_height),
     )
     height = line.supports[0].messenger_height
     x = np.array(line.support_x)
@@ -74,7 +78,13 @@ def section(conductor: Conductor) -> Section:
 
 
 def _droppers(
-    line: Line, *, up: bool, clamp_mass: float, target: FloatArray, law: VelocityLaw, foot_height: FloatArray
+    line: Line,
+    *,
+    up: bool,
+    clamp_mass: float,
+    target: FloatArray,
+    law: VelocityLaw,
+    foot: tuple[FloatArray, FloatArray],
 ) -> DropperSetup:
     kind = line.dropper
     return DropperSetup(
@@ -87,7 +97,8 @@ def _droppers(
         guided=kind.joint == "guided",
         target=target,
         law=law,
-        foot_height=foot_height,
+        foot_x=foot[0],
+        foot_height=foot[1],
         clamps_mass=kind.clamp_mass_top + kind.clamp_mass_bottom,
     )
 

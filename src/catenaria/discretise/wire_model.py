@@ -196,8 +196,8 @@ def _dropper_controls(setup: WireSetup, cables: DropperCables) -> Controls:
         return Controls(travel, measure, droppers.target, droppers.law, setup.control_ramp, Ramp(0.0))
     measure = DropperForce(
         cables.clamp_force[:, 2],
-        inner[:, 2],
-        droppers.foot_height,
+        inner,
+        np.column_stack((droppers.foot_x, np.zeros_like(droppers.foot_x), droppers.foot_height)),
         droppers.section.rhoA,
         np.full(droppers.x.size, droppers.clamps_mass),
         setup.g,

@@ -46,8 +46,9 @@ class DropperSetup:
         Wanted heights [m] for the lower cables, forces T_cd [N] for the upper ones.
     law : VelocityLaw
         Law (21), or the similar one for (23).
-    foot_height : FloatArray, shape (n,)
-        Heights of P_cd [m]; used by the upper cables for the weight G of (23).
+    foot_x, foot_height : FloatArray, shape (n,)
+        Where P_cd are along the track, and their heights [m]; used by the upper cables for the weight G of
+        (23).
     clamps_mass : float
         Mass of both clamps [kg]; used by the upper cables for G.
     """
@@ -61,6 +62,7 @@ class DropperSetup:
     guided: bool
     target: FloatArray
     law: VelocityLaw
+    foot_x: FloatArray
     foot_height: FloatArray
     clamps_mass: float
 

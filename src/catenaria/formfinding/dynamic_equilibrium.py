@@ -71,7 +71,7 @@ class DynamicEquilibrium:
         contact = self._step(line, contact_wire_setup(line), 1, start, begin)
         below = _rest(contact).clamped
         refuse_compression(line, below)
-        setup = messenger_wire_setup(line, below.lift, below.height)
+        setup = messenger_wire_setup(line, below.lift, below.height, below.position[:, 0])
         messenger = self._step(line, setup, 2, start, begin)
         self._tell(Progress("lengths", 3, _STAGES, elapsed=perf_counter() - begin))
         motions = (contact, messenger)

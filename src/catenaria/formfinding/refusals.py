@@ -31,18 +31,22 @@ def refuse_compression(line: Line, contact: Clamped) -> None:
     Notes
     -----
     A dropper carries what hangs on it less what the tension T lifts by the kink k of the wanted heights,
-    T_cd = W - T k: with T_cd < 0, no tension above T W/(W - T_cd) would do.
+    T_cd = W - T k: with T_cd < 0, no tension above T W/(W - T_cd) would do. Where W > T k, a string would
+    pull, and it is the stiffness of the wire that pushes: droppers and supports are too close together.
     """
     force_bottom = contact.lift
     pushed = force_bottom < 0.0
     if np.any(pushed):
-        carried = _carried(contact)[pushed]
-        tension = contact.setup.tension.force
-        enough = tension * float(np.min(carried / (carried - force_bottom[pushed])))
-        advice = (
-            "The wanted heights are below where the tension lets the contact wire hang: a smaller pre-sag, a "
-            f"tension below about {_two_digits(enough / 1e3)} kN or other dropper positions would help"
-        )
+        carried, tension = _carried(contact), contact.setup.tension.force
+        too_low = pushed & (carried <= tension * _kink(contact))
+        advice = _CLOSE
+        if np.any(too_low):
+            enough = tension * float(np.min((carried / (carried - force_bottom))[too_low]))
+            advice = (
+                "The wanted heights are below where the tension lets the contact wire hang: a smaller "
+                f"pre-sag, a tension below about {_two_digits(enough / 1e3)} kN or other dropper positions "
+                "would help"
+            )
         _refuse(line, pushed, force_bottom, "N", "would be in compression", advice, (contact,))
 
 
@@ -57,6 +61,16 @@ def _carried(contact: Clamped) -> FloatArray:
     place = np.searchsorted(held, setup.droppers.x)
     bay = 0.5 * (held[np.minimum(place + 1, held.size - 1)] - held[np.maximum(place - 1, 0)])
     return setup.g * (setup.section.rhoA * bay + setup.droppers.clamp_mass)
+
+
+def _kink(contact: Clamped) -> FloatArray:
+    """Return by how much the slope of straight lines between the wanted heights grows at every dropper."""
+    setup = contact.setup
+    x = np.concatenate((setup.support_x, setup.droppers.x))
+    height = np.concatenate((np.full(setup.support_x.size, setup.height), setup.droppers.target))
+    order = np.argsort(x, kind="stable")
+    slope = np.diff(height[order]) / np.diff(x[order])
+    return np.interp(setup.droppers.x, x[order][1:-1], np.diff(slope))
 
 
 def refuse_impossible(line: Line, droppers: Droppers, steps: tuple[Clamped, Clamped]) -> None:
@@ -123,5 +137,9 @@ def _named(line: Line, droppers: NDArray[np.intp], sizes: list[str]) -> str:
     )
 
 
+_CLOSE = (
+    "The contact wire is too stiff for places so close together: droppers farther from each other and from "
+    "supports would help"
+)
 _SLACK = "The messenger sags below the contact wire: more tension or higher supports would help"
 _SHORT = "The clamps bridge more than there is between the wires: check the clamp heights"

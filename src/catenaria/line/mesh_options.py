@@ -66,7 +66,8 @@ def read_mesh(options: Sequence[str]) -> Mesh:
     for option in options:
         name, equals, text = (part.strip() for part in option.partition("="))
         if not equals or name not in Mesh.model_fields:
-            allowed = f"KEY=VALUE with one of the fields {_NAMES}{closest(name, Mesh.model_fields)}"
+            meant = "" if name in Mesh.model_fields else closest(name, Mesh.model_fields)
+            allowed = f"KEY=VALUE with one of the fields {_NAMES}{meant}"
             faults.append(_fault(name or "the option", repr(option), allowed))
         elif name in tree:
             faults.append(_fault(name, "the field a second time", "each field once"))

@@ -68,7 +68,7 @@ def implausible_tensions(line: Line) -> Iterator[Problem]:
         low, high = (strain * conductor.EA for strain in _STRAIN)
         force = _Range(float(f"{low:.2g}"), float(f"{high:.2g}"), "N", (("kN", 1e3),))
         if not force.holds(wire.tension.force):
-            why = f"{force.allowed(wire.tension.force)} EA is {conductor.EA / 1e6:.4g} MN"
+            why = f"{force.allowed(wire.tension.force)} (EA is {conductor.EA / 1e6:.4g} MN)"
             yield Problem((field, "tension", "force"), wire.tension.force, why)
 
 

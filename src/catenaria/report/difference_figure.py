@@ -25,7 +25,7 @@ def differences_figure(name: str, reference: str, found: Mapping[str, Difference
     title = f"{name}: differences from the {reference} method"
     figure, panels = style.new_figure(
         title,
-        "What methods that agree have found lies one on the other; the last one covers the rest.",
+        "Methods that agree lie one on the other.",
         [2.6] * 3,
     )
     axes = [row[0] for row in panels]

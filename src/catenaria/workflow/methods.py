@@ -7,6 +7,7 @@ from typing import Protocol
 
 from catenaria.formfinding.direct import Direct
 from catenaria.formfinding.dynamic_equilibrium import DynamicEquilibrium
+from catenaria.formfinding.finite_elements.registry import ELEMENT_METHODS
 from catenaria.formfinding.progress import Listener
 from catenaria.formfinding.strings.registry import STRING_METHODS
 from catenaria.line import Line
@@ -23,10 +24,15 @@ class Method(Protocol):
 
 Make = Callable[[Listener | None], Method]
 
-METHODS: dict[str, Make] = {"direct": Direct, "dynamic": DynamicEquilibrium, **STRING_METHODS}
+METHODS: dict[str, Make] = {
+    "direct": Direct,
+    "dynamic": DynamicEquilibrium,
+    **STRING_METHODS,
+    **ELEMENT_METHODS,
+}
 
 NEGLECTS = {
     "direct": "nothing that the line describes",
     "dynamic": "what is left of targets within its dead bands",
-    **{name: make(None).neglects for name, make in STRING_METHODS.items()},
+    **{name: make(None).neglects for name, make in (STRING_METHODS | ELEMENT_METHODS).items()},
 }

@@ -72,8 +72,13 @@ def _joined(shape: WireShape) -> StringAtRest:
     mesh, force = shape.mesh, np.zeros((shape.q.shape[0], 3))
     force[mesh.knots, 0], force[mesh.knots, 2] = shape.nodal_force[mesh.knots, :2].T
     force[mesh.clamp, 0] = 0.0  # to Newton's tolerance
-    r = np.column_stack((shape.q[:, 0], np.zeros(shape.q.shape[0]), shape.q[:, 1]))
-    return StringAtRest(shape.s, r, force, mesh.support, mesh.clamp)
+    return StringAtRest(shape.s, _positions(shape), force, mesh.support, mesh.clamp)
+
+
+def _positions(shape: WireShape) -> FloatArray:
+    """Return the positions of the nodes, shape (n, 3) [m]."""
+    x, z = shape.q[:, 0] + shape.mesh.origin, shape.q[:, 1]
+    return np.column_stack((x, np.zeros_like(x), z))
 
 
 def _slopes(shape: WireShape) -> FloatArray:
@@ -91,7 +96,7 @@ def _profile(shape: WireShape) -> Profile:
     kappa = np.abs(r1[..., 0] * r2[..., 1] - r1[..., 1] * r2[..., 0]) / size**3
     bend = shape.mesh.section.EJ * kappa
     bend[:-1, -1] = bend[1:, 0] = 0.5 * (bend[:-1, -1] + bend[1:, 0])
-    x, z = _closed(r[..., 0]), _closed(r[..., 1])
+    x, z = _closed(r[..., 0]) + shape.mesh.origin, _closed(r[..., 1])
     tension, strain_tension = (np.interp(s, *_along(shape, values)) for values in _tensions(shape))
     return Profile(
         s=s,
@@ -141,7 +146,8 @@ def _bent(form: WireForm, shape: WireShape) -> WireForm:
     force, arc = _tensions(shape)[0][between], beam.arc_length(shape.element_q)[between]
     hung = mesh.joint if mesh.name == "contact wire" else mesh.support
     inside = slice(_SAMPLES * int(hung[0]), _SAMPLES * int(hung[-1]) + 1)
-    chord: FloatArray = np.interp(profile.x[inside], shape.q[hung, 0], shape.q[hung, 1])
+    joints = _positions(shape)[hung]
+    chord: FloatArray = np.interp(profile.x[inside], joints[:, 0], joints[:, 2])
     return replace(
         form,
         stretched_length=float(arc.sum()),
@@ -161,7 +167,7 @@ def _stage(shape: WireShape, form: WireForm) -> Stage:
         chain=(mesh.name,),
         node_count=np.array([none.size]),
         s=shape.s,
-        position=np.column_stack((shape.q[:, 0], none, shape.q[:, 1])),
+        position=_positions(shape),
         slope=np.column_stack((slope[:, 0], none, slope[:, 1])),
         sliding_coordinate=shape.s[np.concatenate((mesh.support, mesh.clamp))],
         parameter=np.array([form.travel]),

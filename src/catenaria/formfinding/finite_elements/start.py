@@ -30,7 +30,7 @@ def first_guess(system: LineSystem, start: FormResult | None) -> tuple[FloatArra
         )
     parts: list[FloatArray] = []
     for wire, form in zip((system.contact, system.messenger), start.wires, strict=True):
-        z = np.interp(wire.mesh.x, form.profile.x, form.profile.z)
+        z = np.interp(wire.mesh.x, form.profile.x - wire.mesh.origin, form.profile.z)
         parts.append(laid_out(wire, z, np.gradient(z, wire.mesh.x)))
     return np.concatenate(parts), start.droppers.unstressed_length
 

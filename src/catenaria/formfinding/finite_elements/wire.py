@@ -28,6 +28,8 @@ class WireMesh:
         ``contact wire`` or ``messenger wire``.
     section : Section
         Cross-section and weight.
+    origin : float
+        Chainage from which places are counted, because numbers near zero have more digits [m].
     x : FloatArray, shape (n_nodes,)
         Where the nodes stand when the wire is laid out straight over its supports, and joints always [m].
     joint : IntArray, shape (n_joints,)
@@ -46,6 +48,7 @@ class WireMesh:
 
     name: str
     section: Section
+    origin: float
     x: FloatArray
     joint: IntArray
     is_support: BoolArray
@@ -122,7 +125,8 @@ def refuse_beyond_core(line: Line, method: str) -> None:
 
 def _mesh(line: Line, name: str, wire: Wire, support_x: FloatArray, height: float) -> WireMesh:
     mesh, kind = line.solver.mesh, line.conductors[wire.conductor]
-    clamp_x = np.array(line.dropper_x)
+    origin = line.start_chainage
+    support_x, clamp_x = support_x - origin, np.array(line.dropper_x) - origin
     joint_x = np.concatenate((support_x, clamp_x))
     order = np.argsort(joint_x, kind="stable")
     start, end = support_x[0] - wire.tail, support_x[-1] + wire.tail
@@ -133,6 +137,7 @@ def _mesh(line: Line, name: str, wire: Wire, support_x: FloatArray, height: floa
     return WireMesh(
         name=name,
         section=Section(kind.EA, kind.EJ, kind.rhoA * line.gravity),
+        origin=origin,
         x=x,
         joint=joint,
         is_support=order < support_x.size,

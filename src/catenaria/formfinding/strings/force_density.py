@@ -5,21 +5,18 @@ With the force per length of every element given, equilibrium is linear in the c
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import solveh_banded  # pyright: ignore[reportUnknownVariableType]
 
-from catenaria.catenary.green_bar import stretch
 from catenaria.errors import InfeasibleError, NotConvergedError
 from catenaria.formfinding.strings.at_rest import LineAtRest
 from catenaria.formfinding.strings.bays import Bays, with_tails
 from catenaria.formfinding.strings.method import Solved
+from catenaria.formfinding.strings.net import Net
 from catenaria.formfinding.strings.task import Joints, StringLine, StringWire
 
 FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 BoolArray = NDArray[np.bool_]
 
 NEGLECTS = "bending; weight is lumped at nodes at most 2.4 m apart, their sag added afterwards"
@@ -52,7 +49,7 @@ def find_rest(task: StringLine) -> Solved:
     Methods in Applied Mechanics and Engineering 3 (1974) 115-134. [18] of Yang et al. 2017.
     """
     joints = task.contact.joints(task.x)
-    net = _Net.of(joints)
+    net = Net.of(joints, _LARGEST)
     height = np.empty_like(joints.x)
     height[joints.support], height[joints.clamp] = task.contact.support_z, task.height
     contact, first = _settle(task.contact, joints, net, np.interp(net.x, joints.x, height), None)
@@ -60,7 +57,7 @@ def find_rest(task: StringLine) -> Solved:
     force = below.force[below.clamp, 2]
 
     joints = task.messenger.joints(task.x)
-    net = _Net.of(joints)
+    net = Net.of(joints, _LARGEST)
     z = np.interp(net.x, task.messenger.support_x, task.messenger.support_z)
     messenger, second = _settle(task.messenger, joints, net, z, (task, force))
     above = with_tails(task.messenger, joints, messenger)
@@ -68,27 +65,8 @@ def find_rest(task: StringLine) -> Solved:
     return Solved(LineAtRest(below, above, unstressed), first + second, 2 * net.x.size)
 
 
-class _Net(NamedTuple):
-    """Nodes of a wire: places, which of them are joints, and the elements' lengths along the track."""
-
-    x: FloatArray
-    joint: IntArray
-    dx: FloatArray
-
-    @classmethod
-    def of(cls, joints: Joints) -> _Net:
-        """Divide all bays evenly."""
-        h = np.diff(joints.x)
-        count = np.ceil(h / _LARGEST).astype(np.int64)
-        joint = np.append(0, np.cumsum(count))
-        dx = np.repeat(h / count, count)
-        number = np.arange(joint[-1] + 1, dtype=np.float64)
-        x = np.interp(number, joint.astype(np.float64), joints.x)
-        return cls(x, joint, dx)
-
-
 def _settle(
-    wire: StringWire, joints: Joints, net: _Net, z: FloatArray, hanging: tuple[StringLine, FloatArray] | None
+    wire: StringWire, joints: Joints, net: Net, z: FloatArray, hanging: tuple[StringLine, FloatArray] | None
 ) -> tuple[Bays, int]:
     """Repeat the linear step until heights do not change; without droppers that hang, heights are given."""
     fixed = np.zeros(net.x.size, dtype=np.bool_)
@@ -96,12 +74,10 @@ def _settle(
     along, change = np.full(net.dx.size, wire.tension), np.inf
     for count in range(_MOST):
         q = along / net.dx
-        length = np.hypot(net.dx, np.diff(z))
-        chord = length / stretch(q * length, wire.EA)
-        L = chord * (1.0 + (wire.w * chord / along) ** 2 / 24.0)
+        L = net.unstressed(wire, z, along)
         weight = wire.w * L
         if change < _ENOUGH:
-            return _bays(wire, net, z, q, L), count
+            return net.bays(wire, z, along, L), count
         load = np.zeros_like(z)
         load[:-1] += 0.5 * weight
         load[1:] += 0.5 * weight
@@ -133,7 +109,7 @@ def _heights(q: FloatArray, load: FloatArray, z: FloatArray, fixed: BoolArray) -
     return np.asarray(solveh_banded(D, right, check_finite=False), dtype=np.float64)
 
 
-def _along(wire: StringWire, net: _Net, joints: Joints, up: FloatArray, weight: FloatArray) -> FloatArray:
+def _along(wire: StringWire, net: Net, joints: Joints, up: FloatArray, weight: FloatArray) -> FloatArray:
     """Return H of every element: the tension passes supports, and vertical forces take their part of it."""
     ends = net.joint[joints.support]
     spans = list(zip(ends[:-1].tolist(), ends[1:].tolist(), strict=True))
@@ -146,10 +122,3 @@ def _along(wire: StringWire, net: _Net, joints: Joints, up: FloatArray, weight: 
         along = float(np.sqrt(tension**2 - near**2))
         H[first:last], tension = along, float(np.hypot(along, far))
     return H
-
-
-def _bays(wire: StringWire, net: _Net, z: FloatArray, q: FloatArray, L: FloatArray) -> Bays:
-    """Return bays from elements, whose weight was at their ends."""
-    first = net.joint[:-1]
-    V = q * np.diff(z) - 0.5 * wire.w * L
-    return Bays(z[net.joint], (q * net.dx)[first], V[first], np.add.reduceat(L, first))

@@ -174,10 +174,10 @@ class DropperForce:
     ----------
     force : IntArray, shape (n,)
         Indices of the vertical multipliers at the messenger: the pull of the wire on the dropper, T_md [N].
-    top : IntArray, shape (n,)
-        Indices of the vertical coordinates of P_md.
-    bottom : FloatArray, shape (n,)
-        Vertical coordinates of P_cd found in the first step [m].
+    top : IntArray, shape (n, 3)
+        Indices of the coordinates of P_md.
+    bottom : FloatArray, shape (n, 3)
+        Coordinates of P_cd found in the first step [m].
     rhoA : float
         Mass of the dropper per length [kg/m].
     mass : FloatArray, shape (n,)
@@ -187,8 +187,8 @@ class DropperForce:
 
     Notes
     -----
-    The weight G = g (rhoA (z_md - z_cd) + mass) varies with the height between the two points, as in the
-    paper.
+    The weight G = g (rhoA |r_md - r_cd| + mass) varies with the distance of the two points; that of a guided
+    dropper is its height, a frictionless one leans.
     """
 
     force: IntArray
@@ -201,15 +201,19 @@ class DropperForce:
 
     def value(self, t: float, z: FloatArray) -> FloatArray:
         """Return T_md - G [N]."""
-        return z[self.force] - self.g * self.ramp(t) * (self.rhoA * (z[self.top] - self.bottom) + self.mass)
+        length = np.linalg.norm(z[self.top] - self.bottom, axis=1)
+        return z[self.force] - self.g * self.ramp(t) * (self.rhoA * length + self.mass)
 
     def columns(self) -> IntArray:
-        """Return force and height."""
-        return np.stack((self.force, self.top), axis=1)
+        """Return force and upper end."""
+        return np.concatenate((self.force[:, None], self.top), axis=1)
 
     def gradient(self, t: float, z: FloatArray) -> FloatArray:
-        """Return 1 and -g rhoA."""
-        return np.tile([1.0, -self.g * self.ramp(t) * self.rhoA], (self.force.size, 1))
+        """Return 1 and -g rhoA times the dropper's direction."""
+        d = z[self.top] - self.bottom
+        along = d / np.linalg.norm(d, axis=1)[:, None]
+        by_top = -self.g * self.ramp(t) * self.rhoA * along
+        return np.concatenate((np.ones((self.force.size, 1)), by_top), axis=1)
 
     def relocate(self, z: FloatArray) -> None:
         """Return None: there is no discrete state."""
