@@ -12,7 +12,7 @@ from scipy import optimize  # pyright: ignore[reportMissingTypeStubs]
 FloatArray = NDArray[np.float64]
 Function = Callable[[FloatArray], FloatArray]
 
-_PRECISION = 1e-14  # relative, of parameters and of the sum of squares
+_PRECISION = 1e-10  # relative, of all parameters together: some tenths of a nanometre each
 
 
 def least_squares(error: Function, derivative: Function, first: FloatArray) -> tuple[FloatArray, int]:
@@ -38,7 +38,7 @@ def least_squares(error: Function, derivative: Function, first: FloatArray) -> t
     found = cast(
         "Any",
         optimize.least_squares(  # pyright: ignore[reportUnknownMemberType]
-            error, first, derivative, xtol=_PRECISION, ftol=_PRECISION, gtol=_PRECISION
+            error, first, derivative, xtol=_PRECISION, ftol=None, gtol=None
         ),
     )
     return np.asarray(found.x, dtype=np.float64), int(found.nfev)
