@@ -11,8 +11,10 @@ from typing import Any
 import numpy as np
 import pytest
 
+from catenaria.line import load_line
 from catenaria.workflow import Progress
 
+EXAMPLE = Path(__file__).parents[2] / "examples" / "yang2017_three_span.yaml"
 Listener = Callable[[Progress], None]
 
 
@@ -32,6 +34,8 @@ def small_result(droppers: int) -> Any:
         for name, error in (("contact wire", -5.31), ("messenger wire", 21.5))
     ]
     return SimpleNamespace(
+        inputs=load_line(EXAMPLE).model_dump(mode="json"),
+        physics="bending",
         audit=SimpleNamespace(passed=True, findings=(), lines=lambda: ("Audit of equilibrium: passed.",) * 3),
         rebuilt=SimpleNamespace(findings=lambda: (), lines=lambda: ("Rebuilt: comes back.",)),
         stop_reason="contact wire: at rest; messenger wire: at rest",

@@ -34,7 +34,7 @@ CASE: dict[str, Any] = {
             "reference": [6.41],
             "tolerance": 0.05,
             "reason": "rounding",
-            "known": {"up_to": 0.5, "why": "The book rounds."},
+            "known": {"between": (-0.5, 0.5), "why": "The book rounds."},
             "columns": [{"title": "direct", "runs": ["a"]}],
         }
     ],
@@ -82,7 +82,7 @@ def test_an_explained_difference_is_explained_and_passes(fake: Fake) -> None:
     fake(6.80)
     outcome = run("wire", "--out", "pages")
     assert outcome.exit_code == 0
-    assert "Explained up to 0.5 mm: The book rounds." in outcome.stdout
+    assert "Explained between -0.5 and +0.5 mm: The book rounds." in outcome.stdout
     assert "1 numbers: 0 agree, 1 differ and are explained, 0 differ." in outcome.stdout
     assert "Written to pages: 1 files." in outcome.stdout
 

@@ -23,7 +23,7 @@ FAULTS: dict[str, tuple[dict[str, Any], str]] = {
     "an unknown unit": ({"unit": "ft"}, "unit"),
     "a typing error": ({"tolerence": 1.0}, "did you mean tolerance"),
     "no reason": ({"reason": None}, "reason"),
-    "an explanation without size": ({"known": {"up_to": 0.0, "why": "?"}}, "up_to"),
+    "an explanation without size": ({"known": {"between": (0.0, 0.0), "why": "?"}}, "ascends"),
 }
 
 

@@ -29,7 +29,7 @@ def test_a_row_holds_everything(outcome: Outcome) -> None:
 
 
 def test_a_page_says_what_is_compared_and_why(outcome: Outcome) -> None:
-    page = case_page(outcome([6.42, 5.0], [6.41, 5.2], {"up_to": 0.3, "why": "The book rounds."}))
+    page = case_page(outcome([6.42, 5.0], [6.41, 5.2], {"between": (-0.3, 0.3), "why": "The book rounds."}))
     for text in (
         "# A wire\n",
         "Reference: a book.",
@@ -37,7 +37,7 @@ def test_a_page_says_what_is_compared_and_why(outcome: Outcome) -> None:
         "3 agree, 1 differ and are explained, and 0 differ",
         "### Sag\n\nReference: Fig. 22. Tolerance: printed to 0.01 mm.",
         "| second | 5 | 5.00 | 0.00 | 5.20 | +0.20 | 0.05 | explained |",
-        "Explained up to 0.3 mm: The book rounds.",
+        "Explained between -0.3 and +0.3 mm: The book rounds.",
         "## Discussion\n\nNothing else.",
         "](figures/wire_sag.png)",
         "Beside Fig. 22 of the paper. Sag.",
@@ -46,7 +46,7 @@ def test_a_page_says_what_is_compared_and_why(outcome: Outcome) -> None:
 
 
 def test_a_page_without_differences_explains_nothing(outcome: Outcome) -> None:
-    page = case_page(outcome([6.42, 5.0], [6.41, 5.0], {"up_to": 0.3, "why": "The book rounds."}))
+    page = case_page(outcome([6.42, 5.0], [6.41, 5.0], {"between": (-0.3, 0.3), "why": "The book rounds."}))
     assert "The book rounds" not in page
     assert "4 agree, 0 differ and are explained, and 0 differ" in page
 

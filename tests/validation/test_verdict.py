@@ -13,7 +13,7 @@ from catenaria.validation import CaseOutcome, Check, Verdict, compare
 Outcome = Callable[..., CaseOutcome]
 
 GOOD = [6.41, 5.0]
-KNOWN = {"up_to": 0.5, "why": "The book rounds."}
+KNOWN = {"between": (-0.5, 0.5), "why": "The book rounds."}
 
 
 def verdicts(outcome: CaseOutcome) -> list[list[str]]:
@@ -36,7 +36,12 @@ def test_a_known_difference_is_explained_up_to_its_size(outcome: Outcome) -> Non
     judged = outcome([6.41 + 0.4, 5.0], [6.41 - 0.51, 5.0], KNOWN)
     assert verdicts(judged) == [["explained", "agrees"], ["differs", "agrees"]]
     assert judged.counts == (2, 1, 1)
-    assert judged.comparisons[0].explanation == "Explained up to 0.5 mm: The book rounds."
+    assert judged.comparisons[0].explanation == "Explained between -0.5 and +0.5 mm: The book rounds."
+
+
+def test_a_difference_to_the_other_side_is_not_explained(outcome: Outcome) -> None:
+    judged = outcome([6.41 + 0.4, 5.0], [6.41 - 0.4, 5.0], KNOWN | {"between": (-0.5, 0.0)})
+    assert verdicts(judged) == [["differs", "agrees"], ["explained", "agrees"]]
 
 
 def test_what_agrees_needs_no_explanation(outcome: Outcome) -> None:

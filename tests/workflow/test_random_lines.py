@@ -168,6 +168,7 @@ def check_result(result: FormResult) -> None:
     assert unknown == []
     assert result.audit.group  # there was one
     assert result.audit.findings == ()
+    assert result.rebuilt.findings() == ()
     droppers = result.droppers
     assert min(droppers.force_top.min(), droppers.force_bottom.min()) >= 0.0
     assert min(droppers.length.min(), droppers.cut_length.min()) > 0.0

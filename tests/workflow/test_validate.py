@@ -68,7 +68,7 @@ def test_no_number_differs(validated: Validated, name: str) -> None:
 
 def corrupted(check: Check, row: int) -> Check:
     """Return a check whose reference is further away than tolerance and explanation reach."""
-    known = 0.0 if check.known is None else 2.0 * check.known.up_to
+    known = 0.0 if check.known is None else 2.0 * max(map(abs, check.known.between))
     reference = list(check.reference)
     reference[row] += 2.0 * check.tolerances[row] + known + 1e-6
     return check.model_copy(update={"reference": tuple(reference)})

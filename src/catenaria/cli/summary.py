@@ -27,8 +27,16 @@ def show_result(result: FormResult, console: Console) -> None:
         *_counter_lines(result),
         *result.audit.lines(),
         *result.rebuilt.lines(),
+        *_cautions(result),
     ):
         console.print(line, soft_wrap=True)
+
+
+def _cautions(result: FormResult) -> tuple[str, ...]:
+    from catenaria.line import Line, mesh_caution
+
+    caution = mesh_caution(Line.model_validate(result.inputs))
+    return () if caution is None or result.physics != "bending" else (caution,)
 
 
 def _dropper_table(result: FormResult) -> Table:

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from catenaria.catenary.green_bar import stretch
 from catenaria.catenary.taut_wire import Points, TautWire
 from catenaria.discretise.wire_setup import WireSetup
+from catenaria.errors import InfeasibleError
 
 FloatArray = NDArray[np.float64]
 
@@ -92,8 +93,13 @@ def _horizontal(setup: WireSetup, shape: TautWire) -> float:
     z'^2 before it) from H.
     """
     before, behind = shape.kink_slopes(setup.support_x[:-1])
-    taken = np.cumsum(0.5 * (behind**2 - before**2))
-    return shape.H * (1.0 - float(np.mean(taken)))
+    left = 1.0 - float(np.mean(np.cumsum(0.5 * (behind**2 - before**2))))
+    if left <= 0.0:
+        raise InfeasibleError(
+            f"is so slack under {shape.H:.4g} N that it would leave its end supports steeply; more tension, "
+            "shorter spans or lighter droppers would help"
+        )
+    return shape.H * left
 
 
 def _with_droppers(setup: WireSetup, shape: TautWire) -> Points:

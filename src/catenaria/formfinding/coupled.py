@@ -16,6 +16,7 @@ from catenaria.discretise.from_line import contact_wire_setup, messenger_wire_se
 from catenaria.discretise.guess import guess_wire
 from catenaria.discretise.line_model import LineModel, build_line_model
 from catenaria.discretise.tensioned_wire import TensionedWire
+from catenaria.errors import UnsupportedError
 from catenaria.formfinding.static_problem import find_rest
 from catenaria.line import Line
 from catenaria.solvers.newton import Root
@@ -64,9 +65,13 @@ def find_coupled_form(line: Line) -> CoupledForm:
 
     Raises
     ------
+    UnsupportedError
+        If the dropper joints are frictionless.
     NotConvergedError
         If Newton's method does not converge.
     """
+    if line.dropper.joint != "guided":
+        raise UnsupportedError("the whole line at once is solved with guided dropper joints only")
     model, z = guess_line(line)
     return _form(model, find_rest(model.to_find(z), z))
 

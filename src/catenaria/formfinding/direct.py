@@ -67,7 +67,9 @@ class Direct:
         below = contact.clamped
         refuse_compression(line, below)
         self._tell("messenger wire", 2, begin)
-        messenger = find_wire(messenger_wire_setup(line, below.lift, below.height, below.position[:, 0]), names, start)
+        messenger = find_wire(
+            messenger_wire_setup(line, below.lift, below.height, below.position[:, 0]), names, start
+        )
         self._tell("lengths", 3, begin)
         found = contact, messenger
         work = contact.work, messenger.work

@@ -19,7 +19,7 @@ from catenaria.errors import (
     SingularError,
 )
 from catenaria.formfinding.rest import Clamped
-from catenaria.formfinding.slacken import slacken
+from catenaria.formfinding.slacken import Slackened, slacken
 from catenaria.formfinding.static_problem import find_rest
 from catenaria.formfinding.wire_task import WireTask, wire_alone_task, wire_with_cables_task
 from catenaria.results.form import Counters, FormResult
@@ -91,6 +91,8 @@ def _begin(setup: WireSetup, names: tuple[str, ...], start: FormResult | None) -
             f"the {setup.name}: {error}, as slack as its tension of {setup.tension.force:.4g} N makes it; a "
             f"tail longer than {setup.tail:g} m or more tension would help"
         ) from error
+    except InfeasibleError as error:
+        raise InfeasibleError(f"the {setup.name} {error}") from error
     if start is None or not isinstance(task.hung, WireModel):
         return task, task.guess(task.hung)
     return task, start_from(task.hung, stage_of(start, setup.name)).system.unknowns.start
@@ -132,10 +134,10 @@ def _failure(
 ) -> CatenariaError:
     """Return the error that says most about why neither Newton's method nor load stepping found a rest."""
     wire = task.hung.setup.name
-    if isinstance(plain, SingularError):
-        return plain
     if isinstance(stepping, InfeasibleError):
         return InfeasibleError(f"the {wire}: {stepping}", stepping.partial)
+    if isinstance(plain, SingularError) and not isinstance(stepping.partial, Slackened):
+        return plain
     partial = stepping.partial or plain.partial
     reason = f"the {wire}: {stepping.reason}"
     if isinstance(partial, Root) or partial is None:

@@ -184,7 +184,10 @@ def _error(system: System, z: FloatArray, motion: FreeMotion, names: Names) -> S
     if loose.size:
         reason += f"; targets that do not hold it: those of {_listed(loose, names)}"
     sliding = "one tension for each wire that slides" if parameters.size else "a joint that holds this motion"
-    advice = f"{sliding}, or a start in which tension holds what has no stiffness of its own"
+    advice = (
+        f"{sliding}, a mesh with an element or more between any two joints, or a start in which tension "
+        "holds what has no stiffness of its own"
+    )
     return SingularError(reason, advice, motion)
 
 

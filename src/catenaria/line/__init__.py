@@ -13,6 +13,7 @@ from catenaria.line.control import (
 from catenaria.line.dropper import DropperKind, Droppers
 from catenaria.line.line import Line
 from catenaria.line.load import load_line
+from catenaria.line.mesh_caution import mesh_caution
 from catenaria.line.mesh_options import read_mesh, with_mesh
 from catenaria.line.schema import schema
 from catenaria.line.solver import DynamicOptions, Integrator, Mesh, Rayleigh, Settle, Solver
@@ -53,6 +54,7 @@ __all__ = [
     "Track",
     "Wire",
     "load_line",
+    "mesh_caution",
     "read_mesh",
     "refuse_unsupported",
     "schema",

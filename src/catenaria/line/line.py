@@ -37,7 +37,9 @@ class Line(LineModel):
     contact_wire: Wire = Field(description="The wire that the pantograph touches.")
     messenger_wire: Wire = Field(description="The wire that carries the contact wire through the droppers.")
     dropper: DropperKind = Field(description="What all droppers are made of.")
-    start_chainage: Length = Field(default=0.0, description="Chainage (x) of the first support.")
+    start_chainage: Length = Field(
+        default=0.0, ge=-1e6, le=1e6, description="Chainage (x) of the first support, within 1,000 km."
+    )
     supports: tuple[Support, ...] = Field(description="Supports in order of chainage: one more than spans.")
     spans: tuple[Span, ...] = Field(description="Spans in order of chainage.")
     track: Track = Field(default=Track(), description="Course of the track; straight and level if left out.")

@@ -9,7 +9,7 @@ from typing import Any, TypeVar, cast
 from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
-from catenaria.errors import LineFileError
+from catenaria.errors import LineFileError, UnsupportedError
 from catenaria.line.base import LineModel, Path
 from catenaria.line.faults import faults_of, place_of, value_at
 from catenaria.line.line import Line
@@ -36,6 +36,8 @@ def load_line(path: str | FilePath) -> Line:
     ------
     LineFileError
         With one `Fault` for each thing that is wrong, in the order of the file.
+    UnsupportedError
+        If the file describes a free structure.
     """
     return load_model(path, Line)
 
@@ -65,7 +67,15 @@ def load_model(path: str | FilePath, model: type[Model]) -> Model:
         return model.model_validate(tree, context=source)
     except ValidationError as error:
         problems = _all_problems(model, tree, error)
+    if model is Line and _is_structure(tree):
+        raise UnsupportedError(
+            f"{path} describes a free structure, not a line: catenaria.workflow.solve_structure solves it"
+        )
     raise LineFileError(faults_of(problems, tree, source))
+
+
+def _is_structure(tree: object) -> bool:
+    return isinstance(tree, dict) and {"cables", "sections"} <= tree.keys()
 
 
 def _all_problems(model: type[LineModel], tree: object, error: ValidationError) -> dict[Path, ErrorDetails]:

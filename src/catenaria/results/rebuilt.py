@@ -79,7 +79,7 @@ class Rebuilt:
     def lines(self) -> tuple[str, ...]:
         """Return lines for a console: how far it came back, and apart from that what was wanted."""
         if not self.way:
-            return ()
+            return ("Not rebuilt: nothing says that the found lengths, when built, give this form.",)
         rows = "; ".join(_row(name, unit, comeback) for name, unit, comeback, _ in self._parts())
         verdict = "comes back" if self.passed else "DOES NOT COME BACK"
         height, tension = (float(np.abs(error).max()) for error in (self.height_error, self.tension_error))

@@ -46,8 +46,16 @@ class Run(LineModel):
 class Known(LineModel):
     """A difference from the reference that is understood."""
 
-    up_to: float = Field(gt=0.0, description="Size of the difference that the reason explains.")
+    between: tuple[float, float] = Field(
+        description="Smallest and largest difference, observed minus reference, that the reason explains."
+    )
     why: str = Field(description="The reason, and the experiment that shows it.")
+
+    @model_validator(mode="after")
+    def _has_size(self) -> Known:
+        if not self.between[0] < self.between[1]:
+            raise ValueError("the range of an explained difference ascends: between: [smallest, largest]")
+        return self
 
 
 class Column(LineModel):

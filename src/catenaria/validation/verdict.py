@@ -54,7 +54,8 @@ class Comparison:
         known = self.check.known
         if known is None or not self.counts[1]:
             return ""
-        return f"Explained up to {known.up_to:g} {self.check.unit}: {known.why}"
+        low, high = known.between
+        return f"Explained between {low:+g} and {high:+g} {self.check.unit}: {known.why}"
 
 
 @dataclass(frozen=True)
@@ -90,7 +91,7 @@ def compare(check: Check, observed: Sequence[FloatArray]) -> Comparison:
     Notes
     -----
     A number agrees within the tolerance; beyond it, its difference is explained if the check gives a reason
-    and the size that the reason accounts for. Any other differs, and so does one that is not a number.
+    and the range for which the reason accounts. Any other differs, and so does one that is not a number.
 
     Examples
     --------
@@ -109,15 +110,15 @@ def compare(check: Check, observed: Sequence[FloatArray]) -> Comparison:
     values = np.array(observed) / SI[check.unit]
     difference = values - np.array(check.reference)
     verdicts = tuple(
-        tuple(_judge(check, abs(d), tolerance) for d, tolerance in zip(row, check.tolerances, strict=True))
+        tuple(_judge(check, d, tolerance) for d, tolerance in zip(row, check.tolerances, strict=True))
         for row in difference.tolist()
     )
     return Comparison(check, values, difference, verdicts)
 
 
-def _judge(check: Check, size: float, tolerance: float) -> Verdict:
-    if size <= tolerance:
+def _judge(check: Check, difference: float, tolerance: float) -> Verdict:
+    if abs(difference) <= tolerance:
         return Verdict.AGREES
-    if check.known is not None and size <= check.known.up_to:
+    if check.known is not None and check.known.between[0] <= difference <= check.known.between[1]:
         return Verdict.EXPLAINED
     return Verdict.DIFFERS

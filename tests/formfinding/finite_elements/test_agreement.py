@@ -96,7 +96,7 @@ def test_droppers_in_compression_are_refused(vary: Vary, line: Line) -> None:
         ELEMENT_METHODS["adjusted lengths"](None).find_form(vary({"spans": tuple(spans)}))
 
 
-def test_an_earlier_result_saves_rounds(method: str, line: Line) -> None:
+def test_an_earlier_result_saves_iterations(method: str, line: Line) -> None:
     own = ELEMENT_METHODS[method](None)
     first = own.find_form(line)
     again = own.find_form(line, first)

@@ -27,8 +27,8 @@ def elements() -> tuple[np.ndarray, np.ndarray]:
 
 def by_complex_step(q: np.ndarray, L: np.ndarray) -> np.ndarray:
     """Return the derivatives of the force by the six coordinates and the length, shape (n, 6, 7)."""
-    columns = [beam.force(q + 1j * STEP * np.eye(6)[i], L, WIRE).imag / STEP for i in range(6)]
-    columns.append(beam.force(q.astype(complex), L + 1j * STEP, WIRE).imag / STEP)
+    columns = [np.imag(beam.force(q + 1j * STEP * np.eye(6)[i], L, WIRE)) / STEP for i in range(6)]
+    columns.append(np.imag(beam.force(q.astype(complex), L + 1j * STEP, WIRE)) / STEP)
     return np.stack(columns, axis=2)
 
 

@@ -23,15 +23,15 @@ from catenaria.formfinding.finite_elements.start import parabolic_start
 from catenaria.formfinding.finite_elements.trials import Trials
 from catenaria.line import Line
 
-MOST_ROUNDS = {
-    "adjusted lengths": 2,
-    "trial lengths": 18,
-    "nonlinear displacement": 25,
-    "geometry variation": 7,
-    "least distance": 5,
-    "least force error": 9,
-    "weighted residual": 9,
-    "constrained optimisation": 6,
+MOST_ITERATIONS = {
+    "adjusted lengths": 4,
+    "trial lengths": 20,
+    "nonlinear displacement": 50,
+    "geometry variation": 14,
+    "least distance": 7,
+    "least force error": 11,
+    "weighted residual": 11,
+    "constrained optimisation": 8,
 }
 
 
@@ -46,9 +46,9 @@ def adjusted(line: Line) -> Found:
     return adjusted_lengths.adjust_lengths(line, None)
 
 
-def test_rounds_are_bounded(line: Line, method: str) -> None:
+def test_iterations_are_bounded(line: Line, method: str) -> None:
     """A derivative that is wrong and still converges takes more."""
-    assert ELEMENT_METHODS[method](None).find_form(line).counters[0].steps <= MOST_ROUNDS[method]
+    assert ELEMENT_METHODS[method](None).find_form(line).counters[0].steps <= MOST_ITERATIONS[method]
 
 
 def test_adjusting_is_newtons_method(rest: LineState) -> None:

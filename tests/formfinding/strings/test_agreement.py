@@ -92,7 +92,7 @@ def test_an_earlier_result_is_refused(line: Line, found: Found, name: str) -> No
 def test_compression_and_slack_are_refused(vary: Vary, line: Line, name: str) -> None:
     method, spans = STRING_METHODS[name](None), line.model_dump()["spans"]
     low = ({**spans[0], "contact_wire_height": (0, 0, 0, -0.2, 0, 0, 0)}, *spans[1:])
-    with pytest.raises(InfeasibleError, match="compression: 4 in span 1"):
+    with pytest.raises(InfeasibleError, match="compression: 4"):
         method.find_form(vary({"spans": low}))
     with pytest.raises(InfeasibleError, match="upside down: 3"):
         method.find_form(vary({"messenger_wire.tension.force": 4e3}))

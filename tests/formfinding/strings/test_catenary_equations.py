@@ -10,7 +10,8 @@ import pytest
 from catenaria.catenary.green_bar import stretch
 from catenaria.catenary.hanging_chain import hanging_chain
 from catenaria.formfinding.strings import catenary_equations
-from catenaria.formfinding.strings.catenary_equations import elastic_catenary, tangent_law
+from catenaria.formfinding.strings.axial_law import tangent_law
+from catenaria.formfinding.strings.catenary_equations import elastic_catenary
 from catenaria.formfinding.strings.task import StringLine
 
 ONE = np.ones(1)

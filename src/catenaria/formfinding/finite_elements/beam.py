@@ -149,7 +149,7 @@ def force(q: Array, L: Array, section: Section) -> Array:
 
     References
     ----------
-    Crisfield 1991, Non-linear Finite Element Analysis of Solids and Structures 1, section 7.3 (shallow arch).
+    Crisfield 1991, Non-linear Finite Element Analysis of Solids and Structures 1, chapter 7.
     """
     chord = _Chord.of(q)
     a, b = chord.a, chord.b

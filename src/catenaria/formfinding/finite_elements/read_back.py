@@ -53,7 +53,7 @@ def element_result(line: Line, method: str, found: Found, wall_time: float) -> F
     contact, messenger = (_joined(shape) for shape in shapes)
     size = sum(shape.q.size for shape in shapes)
     n = found.iterations
-    work = Counters("both wires", 0.0, wall_time, found.rounds, 0, 0, n, n, n, size)
+    work = Counters("both wires", 0.0, wall_time, n, 0, 0, n, n, n, size)
     strings = LineAtRest(contact, messenger, found.unstressed)
     result = form_result(line, string_line(line, method), method, found.how, strings, (work,))
     wires = tuple(_bent(form, shape) for form, shape in zip(result.wires, shapes, strict=True))

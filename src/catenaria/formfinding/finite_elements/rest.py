@@ -10,34 +10,10 @@ from numpy.typing import NDArray
 
 from catenaria.errors import NotConvergedError
 from catenaria.formfinding.finite_elements.line_system import LineSystem
-from catenaria.formfinding.finite_elements.sparse import Matrix, solve
-from catenaria.solvers.newton import NewtonOptions, solve_newton
+from catenaria.formfinding.finite_elements.root import find_root
+from catenaria.formfinding.finite_elements.sparse import solve
 
 FloatArray = NDArray[np.float64]
-
-_SCALE = 1e-9  # m and rad: a correction that is negligible
-_ITERATIONS = 60
-
-
-@dataclass(frozen=True)
-class _Equations:
-    """A system with fixed dropper lengths, as Newton's method wants it."""
-
-    system: LineSystem
-    unstressed: FloatArray
-
-    @property
-    def newton_scale(self) -> FloatArray:
-        return np.full(self.system.size, _SCALE)
-
-    def residual(self, y: FloatArray) -> FloatArray:
-        return self.system.residual(y, self.unstressed)
-
-    def jacobian(self, y: FloatArray) -> Matrix:
-        return self.system.jacobian(y, self.unstressed).tocsc()
-
-    def reselect(self, y: FloatArray) -> None:
-        """Return nothing: there is no discrete state."""
 
 
 @dataclass(frozen=True)
@@ -149,6 +125,7 @@ def come_to_rest(system: LineSystem, unstressed: FloatArray, y: FloatArray, befo
         raise NotConvergedError(
             f"dropper {number} would have to be shorter than nothing", "a larger encumbrance or more tension"
         )
-    options = NewtonOptions(max_iterations=_ITERATIONS)
-    root = solve_newton(_Equations(system, unstressed), y, options)
-    return LineState(system, unstressed, root.y, before + root.corrections.size)
+    y, iterations = find_root(
+        lambda y: system.residual(y, unstressed), lambda y: system.jacobian(y, unstressed), y
+    )
+    return LineState(system, unstressed, y, before + iterations)

@@ -57,5 +57,5 @@ def try_lengths(line: Line, start: FormResult | None) -> Found:
         error = state.height - system.target
     raise NotConvergedError(
         f"the heights are still {np.max(np.abs(error)):.3g} m off after {_TRIALS} trials",
-        "--method adjusted-lengths, which knows what every length does",
+        "--method 'adjusted lengths', which knows what every length does",
     )

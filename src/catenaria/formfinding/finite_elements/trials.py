@@ -63,7 +63,7 @@ class Trials:
         if height > _ENOUGH[0] or tension > _ENOUGH[1]:
             raise NotConvergedError(
                 f"{what} ended {height:.3g} m off a height and {tension:.3g} N off a tension",
-                "--method adjusted-lengths, or direct",
+                "--method 'adjusted lengths', or direct",
             )
         how = f"{what} in {rounds} iterations with {self.count} states of rest"
         return found_state(state, how, rounds, self.count)

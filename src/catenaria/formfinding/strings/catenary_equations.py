@@ -12,6 +12,7 @@ from scipy.linalg import solve_banded  # pyright: ignore[reportUnknownVariableTy
 from catenaria.catenary.green_bar import stretch
 from catenaria.errors import NotConvergedError
 from catenaria.formfinding.strings.at_rest import LineAtRest
+from catenaria.formfinding.strings.axial_law import tangent_law
 from catenaria.formfinding.strings.bays import Bays, with_tails
 from catenaria.formfinding.strings.method import Solved
 from catenaria.formfinding.strings.task import Joints, StringLine, StringWire
@@ -120,13 +121,6 @@ def elastic_catenary(
     dx_u = dx / H - c / w * sine, c / w * cosine, H * (c / T_j + 1.0 / E)
     dz_u = c / w * cosine, c / w * sine + L / E, V_j * (c / T_j + 1.0 / E)
     return Catenary(dx, dz, dx_u, dz_u)
-
-
-def tangent_law(tension: float, EA: float) -> tuple[float, float]:
-    """Return c and E of the stretch c + T/E that touches the law of Green strain (9) at a tension."""
-    x = float(stretch(tension, EA))
-    E = 0.5 * EA * (3.0 * x * x - 1.0)
-    return x - tension / E, E
 
 
 class _Equations:

@@ -10,6 +10,7 @@ from catenaria.formfinding.strings import (
     extended_force_density,
     force_density,
     separated,
+    spatial_catenary_equations,
 )
 from catenaria.formfinding.strings.method import StringMethod
 
@@ -30,5 +31,11 @@ STRING_METHODS = {
     ),
     "catenary equations": partial(
         StringMethod, "catenary equations", catenary_equations.NEGLECTS, catenary_equations.find_rest
+    ),
+    "spatial catenary equations": partial(
+        StringMethod,
+        "spatial catenary equations",
+        spatial_catenary_equations.NEGLECTS,
+        spatial_catenary_equations.find_rest,
     ),
 }
