@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from catenaria.audit import audit_result
-from catenaria.audit.beams import beam_force, turning_only
+from catenaria.audit.beams import beam_force
 from catenaria.audit.curve import Curve
 from catenaria.audit.energy import elastic_force
 from catenaria.audit.stated import Conductor
@@ -83,18 +83,21 @@ def test_a_wrong_tension_in_the_profile_is_noticed(beams: FormResult) -> None:
 
 
 def test_a_straight_beam_is_a_straight_wire() -> None:
-    """Strain is the same everywhere in both, and both have no curvature."""
+    """Strain is the same everywhere in both, and both have no curvature; slopes are the node's own anyway."""
     direction = np.array([0.8, 0.0, 0.6])
     s = np.array([0.0, 0.7, 1.5])
     curve = Curve(s, 1.002 * np.outer(s, direction), 1.002 * np.tile(direction, (3, 1)))
     size = WIRE.EA * 0.002
-    beam, wire = (turning_only(curve, force(curve, WIRE)) for force in (beam_force, elastic_force))
+    beam, wire = beam_force(curve, WIRE, 0.0), elastic_force(curve, WIRE)
+    assert beam[:, [1, 3]] == pytest.approx(0.0, abs=1e-9 * size)
+    wire[:, [0, 2]] += np.stack((-wire[:, 1] - wire[:, 3], wire[:, 1] + wire[:, 3]), 1) / curve.L[:, None, None]
+    wire[:, [1, 3]] = 0.0
     np.testing.assert_allclose(beam, wire, rtol=0, atol=1e-9 * size)
 
 
 def test_nodes_that_only_turn_are_in_balance_as_before(bent: Curve) -> None:
-    """What acts on the sizes of slopes goes to the nodes without a resultant force or moment."""
-    force = turning_only(bent, beam_force(bent, WIRE))
+    """Inner forces have no resultant force or moment, and do not act on the sizes of slopes."""
+    force = beam_force(bent, WIRE, 0.0)
     total = force[:, 0] + force[:, 2]
     arms = np.cross(bent.r[:-1], force[:, 0]) + np.cross(bent.r[1:], force[:, 2])
     moment = arms + np.cross(bent.r1[:-1], force[:, 1]) + np.cross(bent.r1[1:], force[:, 3])

@@ -20,7 +20,9 @@ if TYPE_CHECKING:
 
 def solve(
     line: Annotated[Path, typer.Argument(metavar="LINE", help="Line file, YAML or JSON.")],
-    method: Annotated[str, typer.Option(help="Form-finding method: direct or dynamic.")] = "direct",
+    method: Annotated[
+        str, typer.Option(help="Form-finding method: direct, dynamic, or one that `compare` shows.")
+    ] = "direct",
     out: Annotated[
         Path | None,
         typer.Option(help="Folder for the results.", show_default="results/ and the name of LINE"),
@@ -54,7 +56,7 @@ def solve(
 
     Before that an audit checks all numbers, and a line that is built from the found lengths must come to
     rest where it was found: statically, or, with --rebuild relaxation, from a disturbed start and without
-    any matrix, which takes seconds.
+    any matrix, which takes seconds. Forms by methods that neglect bending are not rebuilt.
 
     Exit codes: 0 done, audited and rebuilt, 1 not converged or not confirmed by audit and rebuild, 2 bad
     input, 130 interrupted. Nothing is written unless it is 0.
