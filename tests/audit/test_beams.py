@@ -90,7 +90,9 @@ def test_a_straight_beam_is_a_straight_wire() -> None:
     size = WIRE.EA * 0.002
     beam, wire = beam_force(curve, WIRE, 0.0), elastic_force(curve, WIRE)
     assert beam[:, [1, 3]] == pytest.approx(0.0, abs=1e-9 * size)
-    wire[:, [0, 2]] += np.stack((-wire[:, 1] - wire[:, 3], wire[:, 1] + wire[:, 3]), 1) / curve.L[:, None, None]
+    wire[:, [0, 2]] += (
+        np.stack((-wire[:, 1] - wire[:, 3], wire[:, 1] + wire[:, 3]), 1) / curve.L[:, None, None]
+    )
     wire[:, [1, 3]] = 0.0
     np.testing.assert_allclose(beam, wire, rtol=0, atol=1e-9 * size)
 

@@ -96,8 +96,8 @@ def test_a_very_slack_wire_is_found(variant: Variant, tension: float) -> None:
 
 
 def test_the_result_says_how_it_was_found(variant: Variant) -> None:
-    """At 100 m the droppers' weight doubles the load: the messenger sags by 8 m."""
-    result = solve(variant(high(1600.0, tail=30.0, height=100.0)), method="direct")
+    """At 100 m the droppers' weight doubles the load: the messenger sags by 11 m."""
+    result = solve(variant(high(1400.0, tail=30.0, height=100.0)), method="direct")
     assert "the messenger wire slackened in" in result.stop_reason
     assert result.audit is not None
     assert np.abs(result.controls.error).max() < 0.01

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from matplotlib.figure import Figure
 
-from catenaria.report.difference_figure import differences_figure
+from catenaria.report.difference_figure import agreeing, differences_figure
 from catenaria.report.differences import Differences, _height
 from catenaria.results.form import Profile
 
@@ -27,11 +29,16 @@ def test_a_curve_with_kinks_is_met_between_its_points() -> None:
     assert np.abs(np.interp(x, points, curve(points)) - curve(x)).max() > 1e-4
 
 
-def test_many_methods_fit_into_the_figure() -> None:
+def test_methods_that_agree_are_drawn_as_one() -> None:
     x = np.linspace(0.0, 60.0, 7)
     each = Differences(x, 1e-3 * np.sin(x), 0.1 * np.cos(x), x, 0.0 * x, 1e-3 * x)
+    other = replace(each, length=each.length + 0.06e-3)
     assert each.largest_height == 0.06
-    figure = differences_figure("a line", "direct", {f"method {i}": each for i in range(15)})
+    found = {f"method {i}": other if i % 3 else each for i in range(15)}
+    assert [len(group) for group in agreeing(found)] == [5, 10]
+    figure = differences_figure("a line", "direct", found)
     assert isinstance(figure, Figure)
-    assert [len(axes.get_lines()) for axes in figure.axes] == [30, 15, 30]
+    assert [len(axes.get_lines()) for axes in figure.axes] == [4, 2, 4]
+    told = "".join(text.get_text() for text in figure.texts).replace("\n", " ")
+    assert all(f"{name}" in told for name in found)
     assert len(differences_figure("a line", "direct", {}).axes) == 3

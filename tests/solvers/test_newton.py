@@ -110,6 +110,15 @@ class Counting(Scalar):
         return super().jacobian(y)
 
 
+def test_a_full_step_that_the_test_refuses_is_made_if_it_is_good():
+    """From a slope of 0.1 beyond a kink to one of 10: the old slope finds the step bad, the new one good."""
+    f, f_y = (lambda y: 10.0 * y if y < 0.0 else 0.1 * y), (lambda y: 10.0 if y < 0.0 else 0.1)
+    kinked = Counting(lambda y: f(y - 1.0) + 0.5, lambda y: f_y(y - 1.0))
+    root = solve_newton(kinked, np.array([4.0]))
+    assert root.y[0] == pytest.approx(0.95, abs=1e-12)
+    np.testing.assert_array_equal(root.damping, 1.0)
+
+
 def cube(shift):
     return Counting(lambda y: y**3 - shift, lambda y: 3.0 * y * y)
 

@@ -74,8 +74,8 @@ def beam_force(curve: Curve, conductor: Conductor, gravity: float) -> FloatArray
     Notes
     -----
     :math:`\tfrac12 EA\,L\,\varepsilon^2 + \tfrac12 EJ \int \kappa^2 ds + \rho A g \int z\,ds` with Green's
-    :math:`\varepsilon = ((A/L)^2 - 1)/2` of the arc :math:`A = \int |r'| ds`, on the cubic whose slopes have the
-    size A/L; differentiated by complex step like the energy of the other wires.
+    :math:`\varepsilon = ((A/L)^2 - 1)/2` of the arc :math:`A = \int |r'| ds`, on the cubic whose slopes have
+    the size A/L; differentiated by complex step like the energy of the other wires.
     """
     L, force = curve.L, np.empty_like(curve.q)
     for k in range(4):
@@ -92,13 +92,12 @@ def _potential(q: ComplexArray, L: FloatArray, conductor: Conductor, gravity: fl
     places = np.broadcast_to(t, (L.size, t.size))
     N, N1, N2 = (shape_functions(places, L[:, None], order) for order in range(3))
     chord = q[:, 2] - q[:, 0]
-    arc, own = np.sqrt(np.sum(chord * chord, axis=1)), q.copy()
+    own, arc = q.copy(), np.sqrt(np.sum(chord * chord, axis=1))
     for _ in range(_PASSES):
         for k in (1, 3):
             size = np.sqrt(np.sum(q[:, k] * q[:, k], axis=1))
             own[:, k] = q[:, k] * (arc / L / size)[:, None]
-        r1 = N1 @ own
-        arc = L * (np.sqrt(np.sum(r1 * r1, axis=-1)) @ weights)
+        arc = L * (np.sqrt(np.sum((N1 @ own) ** 2, axis=-1)) @ weights)
     axial = 0.125 * conductor.EA * L * ((arc / L) ** 2 - 1.0) ** 2
-    bending = L * (bending_density(r1, N2 @ own, conductor) @ weights)
+    bending = L * (bending_density(N1 @ own, N2 @ own, conductor) @ weights)
     return axial + bending + conductor.rhoA * gravity * L * ((N @ own)[..., 2] @ weights)

@@ -133,18 +133,23 @@ def _places(wire: FreeBody, supports: Supports) -> Iterator[Check]:
 
 
 def _lengths(wire: FreeBody) -> Iterator[Check]:
-    """Yield the lengths of the whole string; the stretched one by the midpoint rule between its points."""
+    """Yield the lengths of the whole string, with the stretch integrated between its points."""
     stated, form = wire.stated, wire.form
     first, last = wire.support_s[[0, -1]]
     inner = form.profile.s[(form.profile.s > first) & (form.profile.s < last)]
     s = np.concatenate(([first], inner, [last]))
-    middle = 0.5 * (s[:-1] + s[1:])
-    x = green_stretch(_size(inner_force(wire, middle, after=True)) / stated.conductor.EA)
+    ds = np.diff(s)
+    F = inner_force(wire, 0.5 * (s[:-1] + s[1:]), after=True)
+    stretched = 0.0
+    for point, share in zip(*clenshaw_curtis(4), strict=True):
+        inside = F.copy()
+        inside[:, 2] += (point - 0.5) * ds * stated.conductor.rhoA * wire.gravity
+        stretched += float(share * ds @ green_stretch(_size(inside) / stated.conductor.EA))
     laid = stated.support[-1, 0] - stated.support[0, 0] + 2.0 * stated.tail
     off = np.abs(
         [
             form.unstressed_length - (last - first),
-            form.stretched_length - float(np.diff(s) @ x),
+            form.stretched_length - stretched,
             float(np.diff(wire.end_s)[0]) - laid,
         ]
     )

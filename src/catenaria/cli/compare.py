@@ -84,7 +84,7 @@ def comparison_table(compared: Sequence[Compared]) -> Table:
         padding=(0, 1, 0, 0),
     )
     table.add_column("method", no_wrap=True)
-    for column in ("length", "height", "force", "iterations", "time"):
+    for column in ("length", "height", "force", "iter.", "time"):
         table.add_column(column, justify="right", no_wrap=True)
     table.add_column("audit", no_wrap=True)
     for each in compared:

@@ -57,8 +57,8 @@ def _find_directly(structure: Structure) -> StructureForm:
     begin = perf_counter()
     model = build_structure(structure)
     found = find_static_form(model)
-    wall, count = perf_counter() - begin, found.iterations
-    counters = Counters("statics", 0.0, wall, count, 0, 0, 2 * count, count, count, found.z.size)
+    wall, count, factors = perf_counter() - begin, found.iterations, found.factorisations
+    counters = Counters("statics", 0.0, wall, count, 0, 0, count + factors, factors, factors, found.z.size)
     after = f" after {found.steps} steps from standstill" if found.steps else ""
     reason = f"Newton's method converged in {count} iterations{after}"
     return structure_form(model, "direct", reason, (0.0, found.z), counters)

@@ -39,14 +39,15 @@ class Found:
     ----------
     z : FloatArray
         Its unknowns.
-    iterations : int
-        Newton iterations, without those of `steps`.
+    iterations, factorisations : int
+        Newton's corrections and factorisations, without those of `steps`.
     steps : int
         Steps from standstill that were needed because Newton's method alone did not get there.
     """
 
     z: FloatArray
     iterations: int
+    factorisations: int
     steps: int
 
 
@@ -77,10 +78,10 @@ def find_static_form(model: StructureModel) -> Found:
     check_count(statics(model.system, model.start), names)
     weightless = _weightless(model)
     try:
-        z, count = model.start, 0
+        z, count, factorisations = model.start, 0, 0
         if weightless is not None:
             root, _ = _rest(model, weightless, z)
-            z, count = root.y, root.iterations
+            z, count, factorisations = root.y, root.iterations, root.corrections.size
         system = statics(model.system, z)
         root, steps = _rest(model, system, z)
     except (NotConvergedError, InfeasibleError) as error:
@@ -89,7 +90,7 @@ def find_static_form(model: StructureModel) -> Found:
         reason = f"{model.name}: {getattr(error, 'reason', error)}"
         raise NotConvergedError(reason, _ADVICE, error.partial) from error
     _refuse_loose_parameters(root, names)
-    return Found(root.y, count + root.iterations, steps)
+    return Found(root.y, count + root.iterations, factorisations + root.corrections.size, steps)
 
 
 def names_of(model: StructureModel) -> Names:

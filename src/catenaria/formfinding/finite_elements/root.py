@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from catenaria.errors import NotConvergedError
 from catenaria.formfinding.finite_elements.sparse import Matrix
 from catenaria.solvers.newton import NewtonOptions, solve_newton
 
@@ -15,6 +16,7 @@ FloatArray = NDArray[np.float64]
 
 _SCALE = 1e-9  # m and rad: a correction that is negligible
 _ITERATIONS = 60
+_ADVICE = "--start from the result of another method, such as 'geometry variation'; or --method direct"
 
 
 @dataclass(frozen=True)
@@ -46,5 +48,8 @@ def find_root(
         If Newton's method finds none.
     """
     equations = _Equations(function, derivative, np.full(y.size, _SCALE))
-    root = solve_newton(equations, y, NewtonOptions(max_iterations=_ITERATIONS))
+    try:
+        root = solve_newton(equations, y, NewtonOptions(max_iterations=_ITERATIONS))
+    except NotConvergedError as error:
+        raise NotConvergedError(f"no state of rest near the first guess: {error.reason}", _ADVICE) from error
     return root.y, root.corrections.size

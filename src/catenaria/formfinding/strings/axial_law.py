@@ -19,7 +19,7 @@ def tangent_law(tension: float, EA: float) -> tuple[float, float]:
     --------
     >>> c, E = tangent_law(15e3, 12.5e6)
     >>> round(c, 9), round(E / 12.5e6, 6)  # Hooke's law would be 1 and 1
-    (1.000002153, 1.003594)
+    (1.000002146, 1.003596)
     """
     x = float(stretch(tension, EA))
     E = 0.5 * EA * (3.0 * x * x - 1.0)

@@ -9,6 +9,7 @@ from catenaria.formfinding.strings import (
     catenary_equations,
     extended_force_density,
     force_density,
+    negative_sag,
     separated,
     spatial_catenary_equations,
 )
@@ -38,4 +39,5 @@ STRING_METHODS = {
         spatial_catenary_equations.NEGLECTS,
         spatial_catenary_equations.find_rest,
     ),
+    "negative sag": partial(StringMethod, "negative sag", negative_sag.NEGLECTS, negative_sag.find_rest),
 }

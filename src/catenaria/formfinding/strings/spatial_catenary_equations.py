@@ -20,7 +20,7 @@ from catenaria.formfinding.strings.task import Joints, StringLine, StringWire
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 
-NEGLECTS = "bending; the axial law is linear about the prescribed tension, which costs less than 0.1 um"
+NEGLECTS = "bending; the axial law is linear about the expected force, which costs less than 0.1 um"
 
 _ENOUGH = 1e-11  # Newton's last correction in metres, and of forces in parts of the tension
 _MOST = 50
@@ -165,11 +165,10 @@ class _Equations:
         unknown[foot, 1] = 4 * elements + np.arange(k)
         unknown[top, 1] = 4 * elements + np.arange(k, 2 * k)
         unknown[top, 2] = 4 * elements + np.arange(2 * k, 3 * k)
-        counts = n - 1, m - 1, k
         laws = [tangent_law(wire.tension, wire.EA) for wire in (task.contact, task.messenger)]
-        laws.append(tangent_law(0.0, task.EA))
-        c, E = (np.repeat([law[i] for law in laws], counts) for i in range(2))
-        w = np.repeat([task.contact.w, task.messenger.w, task.w], counts)
+        own = [tangent_law(force, task.EA) for force in _bay_weights(parts[0]).tolist()]
+        c, E = np.array([laws[0]] * (n - 1) + [laws[1]] * (m - 1) + own).T.copy()
+        w = np.repeat([task.contact.w, task.messenger.w, task.w], (n - 1, m - 1, k))
         scale = np.ones(4 * elements + 3 * k)
         scale[: 3 * elements] = max(task.contact.tension, task.messenger.tension)
         return cls(task, parts, node, place, unknown, w, (c, E), scale)
@@ -185,9 +184,7 @@ class _Equations:
             h = np.diff(part.joints.x)
             bays = slice(part.first, part.first + h.size)
             F[bays, 0], L[bays] = part.wire.tension, h / float(stretch(part.wire.tension, part.wire.EA))
-        contact = self.parts[0]
-        h, clamp = np.diff(contact.joints.x), contact.joints.clamp
-        F[-self.task.x.size :, 2] = 0.5 * contact.wire.w * (h[clamp - 1] + h[clamp])
+        F[-self.task.x.size :, 2] = _bay_weights(self.parts[0])
         free = self.unknown >= 0
         u[self.unknown[free]] = self.place[free]
         return u
@@ -287,6 +284,12 @@ class _Equations:
             with_tails(part.wire, part.joints, bays) for part, bays in zip(self.parts, strings, strict=True)
         )
         return LineAtRest(contact, messenger, L[-self.task.x.size :])
+
+
+def _bay_weights(contact: _Part) -> FloatArray:
+    """Return what droppers of a level contact wire carry: half the weight of both bays beside them [N]."""
+    h, clamp = np.diff(contact.joints.x), contact.joints.clamp
+    return 0.5 * contact.wire.w * (h[clamp - 1] + h[clamp])
 
 
 def _hung(task: StringLine, x: FloatArray) -> FloatArray:
