@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +13,10 @@ from catenaria.formfinding.strings.registry import STRING_METHODS
 from catenaria.formfinding.strings.task import StringLine, string_line
 from catenaria.line import Line, load_line
 from catenaria.results import FormResult
+
+PEERS = ("moorpy", "compas_fd")  # extra: bench
+
+collect_ignore = [f"test_{name}.py" for name in PEERS if find_spec(name) is None]
 
 EXAMPLE = Path(__file__).parents[3] / "examples" / "yang2017_three_span.yaml"
 

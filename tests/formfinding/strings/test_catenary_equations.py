@@ -44,7 +44,8 @@ def test_it_is_the_integral_of_its_direction_times_its_stretch() -> None:
 
 def test_derivatives_are_exact() -> None:
     u, law = np.array([14e3, -300.0, 40.0]), tangent_law(15e3, 12.5e6)
-    reach = elastic_catenary(*(value * ONE for value in u), 6.0, law)
+    H, V, L = (value * ONE for value in u)
+    reach = elastic_catenary(H, V, L, 6.0, law)
     for i in range(3):
         step = 1e-30j * (np.arange(3) == i)
         dx, dz = _complex_reach(u + step, 6.0, law)
