@@ -200,3 +200,9 @@ def test_other_heights_are_refused_by_the_dynamic_method(higher: Line, result: F
 def test_a_result_without_the_step_is_refused(line: Line, result: FormResult, method: str) -> None:
     with pytest.raises(InconsistentInputError, match="no step"):
         solve(line, method=method, start=replace(result, stages=result.stages[1:]))
+
+
+@pytest.mark.parametrize("method", ["direct", "dynamic"])
+def test_a_result_with_other_wires_is_refused(line: Line, result: FormResult, method: str) -> None:
+    with pytest.raises(InconsistentInputError, match="wires are of another kind"):
+        solve(line, method=method, start=replace(result, physics="string"))

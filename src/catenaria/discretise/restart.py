@@ -32,8 +32,13 @@ def stage_of(result: FormResult, step: str) -> Stage:
     Raises
     ------
     InconsistentInputError
-        If there is none.
+        If there is none, or the result is of another kind of wires.
     """
+    if result.physics != "bending":
+        raise InconsistentInputError(
+            f"the earlier result is by the method {result.method!r}, whose wires are of another kind: start "
+            "from one by the direct or the dynamic method"
+        )
     for candidate in result.stages:
         if candidate.step == step:
             return candidate
