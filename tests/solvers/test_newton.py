@@ -143,19 +143,18 @@ def test_a_trial_outside_of_what_is_possible_is_damped():
     """Newton's step from 0.5 leads to 11; only up to 6 there is anything."""
 
     class Bounded(Scalar):
+        def __init__(self, end):
+            super().__init__(lambda y: y**3 - 8.0, lambda y: 3.0 * y * y)
+            self.end = end
+
         def reselect(self, y):
             if y[0] > self.end:
                 raise InfeasibleError("beyond the end")
 
-    def bounded(end):
-        problem = Bounded(lambda y: y**3 - 8.0, lambda y: 3.0 * y * y)
-        problem.end = end
-        return problem
-
-    root = solve_newton(bounded(6.0), np.array([0.5]))
+    root = solve_newton(Bounded(6.0), np.array([0.5]))
     assert root.y[0] == pytest.approx(2.0)
     with pytest.raises(InfeasibleError, match="beyond the end"):
-        solve_newton(bounded(1.0), np.array([0.5]))
+        solve_newton(Bounded(1.0), np.array([0.5]))
 
 
 @pytest.mark.parametrize(

@@ -26,7 +26,7 @@ def elements_of(knots: FloatArray, s: FloatArray, element: IntArray, overlap: fl
         elif knots[e] - slack <= s[i] <= knots[e + 1] + slack:
             found[i] = e
         else:
-            e = int(np.searchsorted(knots, s[i], side="right")) - 1
+            e = np.searchsorted(knots, float(s[i]), side="right") - 1
             found[i] = e if e < knots.size - 1 else knots.size - 2
     return found
 
