@@ -43,21 +43,21 @@ def test_an_unknown_method_is_bad_input(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("change", "code", "text"),
+    ("change", "code", "text", "told"),
     [
-        ({"failure": "slack", "refused": True}, 0, "separated: slack"),
-        ({"failure": "lost"}, 1, "separated: lost"),
+        ({"failure": "slack", "refused": True}, 0, "separated: slack", "refused"),
+        ({"failure": "lost"}, 1, "separated: lost", "none found"),
     ],
 )
 def test_refusals_are_told_and_failures_fail(
-    change: dict[str, Any], code: int, text: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    change: dict[str, Any], code: int, text: str, told: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     none = Compared("separated", "bending", None, None, 0, 0.0)
     monkeypatch.setattr("catenaria.workflow.compare", lambda *_: (dataclasses.replace(none, **change),))
     monkeypatch.setattr("catenaria.workflow.write_comparison", lambda *_: ())
     outcome = run(str(EXAMPLE), "--out", str(tmp_path / "out"))
     assert (outcome.exit_code, outcome.stderr.strip()) == (code, text)
-    assert "none found" in outcome.stdout
+    assert told in outcome.stdout
 
 
 def test_an_interrupt_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import cache
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +13,10 @@ import pytest
 from catenaria.line import Line, load_line
 from catenaria.results import FormResult
 from catenaria.workflow import solve
+
+PEERS = ("exudyn",)  # extra: bench
+
+collect_ignore = [f"test_{name}.py" for name in PEERS if find_spec(name) is None]
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "yang2017_three_span.yaml"
 

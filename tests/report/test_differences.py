@@ -42,3 +42,10 @@ def test_methods_that_agree_are_drawn_as_one() -> None:
     told = "".join(text.get_text() for text in figure.texts).replace("\n", " ")
     assert all(f"{name}" in told for name in found)
     assert len(differences_figure("a line", "direct", {}).axes) == 3
+
+
+def test_droppers_stand_where_the_wire_has_them_in_all_panels() -> None:
+    droppers, x = np.linspace(4.0, 61.0, 7), np.linspace(0.0, 65.0, 50)
+    each = Differences(droppers, 0.0 * droppers, 0.0 * droppers, x, 0.0 * x, 0.0 * x)
+    figure = differences_figure("a line", "direct", {"separated": each})
+    assert {axes.get_xlim() for axes in figure.axes} == {figure.axes[1].get_xlim()}

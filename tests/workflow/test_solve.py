@@ -80,6 +80,14 @@ def test_an_unknown_rebuild_is_refused_with_those_there_are(small: Line) -> None
         solve(small, rebuild=wrong)
 
 
+def test_a_rebuild_by_relaxation_that_there_is_not_is_refused(small: Line) -> None:
+    with pytest.raises(
+        UnsupportedError, match="only forms by direct and dynamic are rebuilt, not by 'separated'"
+    ):
+        solve(small, method="separated", rebuild="relaxation")
+    assert "Not rebuilt" in solve(small, method="separated").rebuilt.lines()[0]
+
+
 def test_a_rebuild_that_fails_hands_the_result_on(small: Line, monkeypatch: pytest.MonkeyPatch) -> None:
     def failing(line: Line, result: FormResult, way: str) -> None:
         raise NotConvergedError("the rebuilt line: lost", "none")

@@ -94,7 +94,7 @@ def comparison_table(compared: Sequence[Compared]) -> Table:
 
 def _cells(each: Compared) -> tuple[str, ...]:
     if each.result is None or each.differences is None:
-        return ("", "", "", "", "", "none found")
+        return ("", "", "", "", "", "refused" if each.refused else "none found")
     found = each.differences
     return (
         f"{1e3 * found.largest_length:.4f}",

@@ -56,9 +56,9 @@ def solve(
 
     Before that an audit checks all numbers, and a line that is built from the found lengths must come to
     rest where it was found: statically, or, with --rebuild relaxation, from a disturbed start and without
-    any matrix, which takes seconds. Forms by methods that neglect bending are not rebuilt.
+    any matrix, which takes seconds. Only forms by the direct and the dynamic method are rebuilt.
 
-    Exit codes: 0 done, audited and rebuilt, 1 not converged or not confirmed by audit and rebuild, 2 bad
+    Exit codes: 0 done and confirmed, 1 not converged or not confirmed by audit and rebuild, 2 bad
     input, 130 interrupted. Nothing is written unless it is 0.
     """
     folder = Path("results") / line.stem if out is None else out

@@ -40,6 +40,8 @@ def differences_figure(name: str, reference: str, found: Mapping[str, Difference
     titles = ("Length of droppers", "Height of the messenger wire", "Force of droppers on the contact wire")
     for panel, text, unit in zip(axes, titles, ("mm", "mm", "N"), strict=True):
         style.describe(panel, text, "x [m]", f"difference [{unit}]")
+    for panel in axes:  # so that droppers of all panels stand above each other
+        panel.set_xlim(axes[1].get_xlim())
     if found:
         style.legend(axes[0], 3)
     return figure

@@ -18,6 +18,7 @@ from catenaria.results.form import FormResult
 from catenaria.workflow.methods import METHODS
 
 Rebuild = Literal["static", "relaxation", "none"]
+REBUILT = ("direct", "dynamic")
 
 
 def solve(
@@ -65,6 +66,8 @@ def solve(
         raise UnsupportedError(f"there is no method {method!r}; there is {', '.join(METHODS)}")
     if rebuild not in get_args(Rebuild):
         raise UnsupportedError(f"there is no rebuild {rebuild!r}; there is {', '.join(get_args(Rebuild))}")
+    if rebuild == "relaxation" and method not in REBUILT:
+        raise UnsupportedError(f"only forms by {' and '.join(REBUILT)} are rebuilt, not by {method!r}")
     begin = perf_counter()
     if not isinstance(line, Line):
         line = load_line(line)

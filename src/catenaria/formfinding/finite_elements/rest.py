@@ -123,7 +123,8 @@ def come_to_rest(system: LineSystem, unstressed: FloatArray, y: FloatArray, befo
     if not np.all(unstressed > 0.0):
         number = int(np.argmin(unstressed)) + 1
         raise NotConvergedError(
-            f"dropper {number} would have to be shorter than nothing", "a larger encumbrance or more tension"
+            f"dropper {number} of the line would have to be shorter than nothing",
+            "a larger encumbrance or more tension",
         )
     y, iterations = find_root(
         lambda y: system.residual(y, unstressed), lambda y: system.jacobian(y, unstressed), y

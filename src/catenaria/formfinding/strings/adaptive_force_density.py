@@ -12,6 +12,7 @@ from catenaria.errors import InfeasibleError, NotConvergedError
 from catenaria.formfinding.strings.at_rest import LineAtRest
 from catenaria.formfinding.strings.bays import with_tails
 from catenaria.formfinding.strings.method import Solved
+from catenaria.formfinding.strings.named import named
 from catenaria.formfinding.strings.net import Net
 from catenaria.formfinding.strings.task import Joints, StringLine, StringWire
 
@@ -58,8 +59,8 @@ def find_rest(task: StringLine) -> Solved:
     worst = np.inf
     for count in range(1, _MOST):
         length = z[net.top] - task.height
-        _refuse(length <= 0.0, "stand upside down", "more tension of the messenger wire")
-        _refuse(force < _SLACK * np.mean(force), "be slack or in compression", "a smaller pre-sag")
+        _refuse(task, length <= 0.0, "stand upside down", "more tension of the messenger wire")
+        _refuse(task, force < _SLACK * np.mean(force), "be slack or in compression", "a smaller pre-sag")
         z, L, unstressed = net.heights(z, along, force / length)
         factor, off = net.tension(z, along, L)
         worst = float(np.max(np.abs(task.height - z[net.foot])))
@@ -73,10 +74,10 @@ def find_rest(task: StringLine) -> Solved:
     )
 
 
-def _refuse(wrong: NDArray[np.bool_], what: str, advice: str) -> None:
+def _refuse(task: StringLine, wrong: NDArray[np.bool_], what: str, advice: str) -> None:
     """Refuse droppers that no positive density can hold."""
     if np.any(wrong):
-        names = ", ".join(str(number) for number in np.flatnonzero(wrong) + 1)
+        names = named(task.span, wrong)
         raise InfeasibleError(f"droppers would {what}: {names}; {advice} would help")
 
 

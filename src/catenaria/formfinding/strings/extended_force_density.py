@@ -12,6 +12,7 @@ from catenaria.errors import InfeasibleError, NotConvergedError
 from catenaria.formfinding.strings.at_rest import LineAtRest
 from catenaria.formfinding.strings.bays import with_tails
 from catenaria.formfinding.strings.method import Solved
+from catenaria.formfinding.strings.named import named
 from catenaria.formfinding.strings.net import Net
 from catenaria.formfinding.strings.sparse import Entries, Matrix, blocks, diagonal, factorised, matrix
 from catenaria.formfinding.strings.task import Joints, StringLine, StringWire
@@ -140,12 +141,10 @@ class _Network:
 
     def refuse_upside_down(self, state: _State) -> None:
         """Refuse droppers without length, whose force density has no limit."""
-        short = np.flatnonzero(np.diff(state.z[self.edge[self.droppers]], axis=1)[:, 0] <= 0.0) + 1
-        if short.size:
-            names = ", ".join(str(number) for number in short)
-            raise InfeasibleError(
-                f"droppers would stand upside down: {names} of the line; more tension helps"
-            )
+        short = np.diff(state.z[self.edge[self.droppers]], axis=1)[:, 0] <= 0.0
+        if np.any(short):
+            names = named(self.task.span, short)
+            raise InfeasibleError(f"droppers would stand upside down: {names}; more tension would help")
 
     def loads(self, state: _State) -> tuple[FloatArray, tuple[FloatArray, FloatArray]]:
         """Return the loads on all nodes, downwards, and the unstressed lengths of both wires' branches."""

@@ -12,6 +12,7 @@ from catenaria.errors import InfeasibleError, NotConvergedError
 from catenaria.formfinding.strings.at_rest import LineAtRest
 from catenaria.formfinding.strings.bays import with_tails
 from catenaria.formfinding.strings.method import Solved
+from catenaria.formfinding.strings.named import named
 from catenaria.formfinding.strings.net import Net
 from catenaria.formfinding.strings.sparse import Matrix, diagonal, factorised, matrix
 from catenaria.formfinding.strings.task import Joints, StringLine, StringWire
@@ -63,17 +64,17 @@ def find_rest(task: StringLine) -> Solved:
         if worst < _ENOUGH:
             return Solved(model.at_rest(z, along, L, unstressed), work, model.free.size)
         unstressed = unstressed + error
-        _refuse_upside_down(unstressed)
+        _refuse_upside_down(task, unstressed)
     raise NotConvergedError(
         f"heights are still {1e3 * worst:.3g} mm off after {_MOST} passes",
         "--method 'extended force density'",
     )
 
 
-def _refuse_upside_down(length: FloatArray) -> None:
-    short = np.flatnonzero(length <= 0.0) + 1
-    if short.size:
-        names = ", ".join(str(number) for number in short)
+def _refuse_upside_down(task: StringLine, length: FloatArray) -> None:
+    short = length <= 0.0
+    if np.any(short):
+        names = named(task.span, short)
         raise InfeasibleError(f"droppers would stand upside down: {names}; more tension would help")
 
 

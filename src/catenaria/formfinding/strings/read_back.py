@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from catenaria.catenary.green_bar import stretch
 from catenaria.errors import InfeasibleError
 from catenaria.formfinding.strings.at_rest import LineAtRest, StringAtRest
+from catenaria.formfinding.strings.named import named
 from catenaria.formfinding.strings.task import StringLine, StringWire
 from catenaria.formfinding.versions import versions
 from catenaria.line import Line
@@ -79,8 +80,7 @@ def refuse_impossible(droppers: Droppers) -> None:
         (droppers.cut_length <= 0.0, "would be cut to nothing", "check the clamp heights"),
     ):
         if np.any(wrong):
-            pairs = zip(droppers.number[wrong].tolist(), droppers.span[wrong].tolist(), strict=True)
-            names = ", ".join(f"{number} in span {span}" for number, span in pairs)
+            names = named(droppers.span, wrong)
             raise InfeasibleError(f"droppers {what}: {names}; {advice}")
 
 

@@ -14,6 +14,7 @@ from catenaria.formfinding.strings.at_rest import LineAtRest
 from catenaria.formfinding.strings.axial_law import tangent_law
 from catenaria.formfinding.strings.bays import Bays, with_tails
 from catenaria.formfinding.strings.method import Solved
+from catenaria.formfinding.strings.named import named
 from catenaria.formfinding.strings.sparse import Entries, factorised, matrix
 from catenaria.formfinding.strings.task import Joints, StringLine, StringWire
 
@@ -197,9 +198,9 @@ class _Equations:
 
     def refuse_compression(self, u: FloatArray) -> None:
         """Refuse droppers that would have to push."""
-        pushed = np.flatnonzero(self._split(u)[0][-self.task.x.size :, 2] <= 0.0) + 1
-        if pushed.size:
-            names = ", ".join(str(number) for number in pushed)
+        pushed = self._split(u)[0][-self.task.x.size :, 2] <= 0.0
+        if np.any(pushed):
+            names = named(self.task.span, pushed)
             raise InfeasibleError(f"droppers would be in compression: {names}; a smaller pre-sag would help")
 
     def evaluate(self, u: FloatArray) -> tuple[FloatArray, Entries]:

@@ -79,6 +79,8 @@ class StringLine:
         The wires.
     x, height : FloatArray, shape (n,)
         Where the droppers hang along the track, and the wanted heights of the contact wire there [m].
+    span : IntArray, shape (n,)
+        Numbers of their spans, from 1.
     EA, w : float
         Axial stiffness [N] and weight per unstressed length [N/m] of droppers.
     top, bottom : float
@@ -89,6 +91,7 @@ class StringLine:
     messenger: StringWire
     x: FloatArray
     height: FloatArray
+    span: IntArray
     EA: float
     w: float
     top: float
@@ -159,6 +162,7 @@ def string_line(line: Line, method: str) -> StringLine:
         ),
         x=np.array(line.dropper_x),
         height=np.array(line.dropper_target_height),
+        span=np.array(line.dropper_span, dtype=np.int64) + 1,
         EA=conductor.EA,
         w=conductor.rhoA * line.gravity,
         top=kind.clamp_mass_top * line.gravity,
