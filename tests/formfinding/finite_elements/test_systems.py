@@ -69,7 +69,8 @@ def test_what_a_pull_changes(rest: LineState) -> None:
 
 
 def test_a_dropper_of_no_length_is_refused(rest: LineState) -> None:
-    with pytest.raises(NotConvergedError, match="dropper 3 of the line would have to be shorter than nothing"):
+    refused = "dropper 3 of the line would have to be shorter than nothing"
+    with pytest.raises(NotConvergedError, match=refused):
         come_to_rest(rest.system, rest.unstressed * (np.arange(rest.unstressed.size) != 2), rest.y)
 
 

@@ -49,22 +49,27 @@ def find_rest(task: StringLine) -> Solved:
 
     References
     ----------
-    Schek 1974, section 4. The extension to catenaries, [19] of Yang et al. 2017, is our reconstruction: the
+    Schek 1974. The extension to catenaries, [19] of Yang et al. 2017, is our reconstruction: the
     original was not available.
     """
     network = _Network.of(task)
     state = network.start()
     for count in range(1, _MOST):
-        network.refuse_upside_down(state)
-        load, L = network.loads(state)
+        try:
+            load, L = network.loads(state)
+        except InfeasibleError:  # not the line, but forces that a step beyond all bounds led to
+            break
         new = network.step(state, load)
         change = max(float(np.max(np.abs(new.x - state.x))), float(np.max(np.abs(new.z - state.z))))
         state = new
+        network.refuse_upside_down(state)
         if change < _ENOUGH:
             return Solved(network.at_rest(state, L), count, network.edge.shape[0])
         if not np.isfinite(change):
             break
-    raise NotConvergedError("the force densities that meet all targets were not found", "more tension")
+    raise NotConvergedError(
+        "the force densities that meet all targets were not found", "--method 'catenary equations'"
+    )
 
 
 class _State(NamedTuple):
@@ -123,17 +128,25 @@ class _Network:
         return slice(self.parts[1].edges.stop, None)
 
     def start(self) -> _State:
-        """Return level wires, the messenger bent by the weight of both, and densities to match."""
+        """Return a contact wire through its targets, a messenger bent by the weight of both, and densities.
+
+        A dropper carries what is beside it less what the tension lifts by the kink of the contact wire.
+        """
         contact, messenger = self.parts
-        level = np.interp(contact.net.x, contact.wire.support_x, contact.wire.support_z)
+        joints, clamp = contact.joints, contact.joints.clamp
+        target = np.empty_like(joints.x)
+        target[joints.support], target[clamp] = contact.wire.support_z, self.task.height
+        wanted = np.interp(contact.net.x, joints.x, target)
         at, T = messenger.wire.support_x, messenger.wire.tension
         span = np.clip(np.searchsorted(at, messenger.net.x), 1, at.size - 1)
         sag = (messenger.net.x - at[span - 1]) * (at[span] - messenger.net.x) / (2.0 * T)
         hung = np.interp(messenger.net.x, at, messenger.wire.support_z)
         hung -= (messenger.wire.w + contact.wire.w) * sag
-        z = np.concatenate((level, hung))
-        bays = np.diff(contact.joints.x)
-        force = 0.5 * contact.wire.w * (bays[contact.joints.clamp - 1] + bays[contact.joints.clamp])
+        z = np.concatenate((wanted, hung))
+        bays = np.diff(joints.x)
+        slope = np.diff(target) / bays
+        carried = 0.5 * contact.wire.w * (bays[clamp - 1] + bays[clamp])
+        force = carried - contact.wire.tension * (slope[clamp] - slope[clamp - 1])
         length = np.diff(z[self.edge[self.droppers]], axis=1)[:, 0]
         tight = [np.full(part.net.dx.size, part.wire.tension) / part.net.dx for part in self.parts]
         q = np.concatenate((*tight, force / np.maximum(length, 0.1 * np.max(np.abs(length)))))

@@ -46,7 +46,9 @@ def find_rest(task: StringLine) -> Solved:
     References
     ----------
     H.-J. Schek, The force density method for form finding and computation of general networks, Computer
-    Methods in Applied Mechanics and Engineering 3 (1974) 115-134. [18] of Yang et al. 2017.
+    Methods in Applied Mechanics and Engineering 3 (1974) 115-134. [18] of Yang et al. 2017. The linear step
+    is that of the method as it is commonly taught, its use for a line is our reconstruction: the original
+    was not available.
     """
     joints = task.contact.joints(task.x)
     net = Net.of(joints, _LARGEST)
