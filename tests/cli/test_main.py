@@ -31,7 +31,7 @@ def test_help_teaches() -> None:
     for text in (
         "droppers.csv",
         "--no-figures",
-        "0 done, audited and rebuilt, 1 not converged or not confirmed",
+        "0 done and confirmed, 1 not converged or not confirmed",
     ):
         assert text in solve
 
