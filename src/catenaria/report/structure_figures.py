@@ -62,9 +62,7 @@ def _figure(
     names, values = series
     small = unit != "N" and 0.0 < float(np.abs(values).max()) < _SMALL
     scale, shown = (1e6, f"µ{unit}") if small else (1.0, unit)
-    figure, [[axes]] = style.new_figure(
-        title, "Simulated time is counted from the start without load.", [3.2]
-    )
+    figure, [[axes]] = style.new_figure(title, "Simulated time is counted from the start of the run.", [3.2])
     for i, name in enumerate(names):
         colour = style.CYCLE[i % len(style.CYCLE)]
         style.line(axes, history.time, scale * values[:, i], colour, name)

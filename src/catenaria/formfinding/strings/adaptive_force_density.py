@@ -13,8 +13,8 @@ from catenaria.formfinding.strings.at_rest import LineAtRest
 from catenaria.formfinding.strings.bays import with_tails
 from catenaria.formfinding.strings.method import Solved
 from catenaria.formfinding.strings.named import named
-from catenaria.formfinding.strings.net import Net
-from catenaria.formfinding.strings.task import Joints, StringLine, StringWire
+from catenaria.formfinding.strings.net import Division, Part
+from catenaria.formfinding.strings.task import StringLine
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -81,16 +81,6 @@ def _refuse(task: StringLine, wrong: NDArray[np.bool_], what: str, advice: str) 
         raise InfeasibleError(f"droppers would {what}: {names}; {advice} would help")
 
 
-class _Part(NamedTuple):
-    """A wire in the network: its nodes and its branches."""
-
-    wire: StringWire
-    joints: Joints
-    net: Net
-    nodes: slice
-    edges: slice
-
-
 class _Network(NamedTuple):
     """Both wires and the droppers; free nodes in order along the track, so that the matrix is banded.
 
@@ -98,7 +88,7 @@ class _Network(NamedTuple):
     """
 
     task: StringLine
-    parts: tuple[_Part, _Part]
+    parts: tuple[Part, Part]
     edge: IntArray
     foot: IntArray
     top: IntArray
@@ -107,23 +97,13 @@ class _Network(NamedTuple):
     @classmethod
     def of(cls, task: StringLine) -> _Network:
         """Divide the wires and number everything."""
-        parts: list[_Part] = []
-        node = edge = 0
-        for wire in (task.contact, task.messenger):
-            joints = wire.joints(task.x)
-            net = Net.of(joints, _LARGEST)
-            n = net.x.size
-            parts.append(_Part(wire, joints, net, slice(node, node + n), slice(edge, edge + n - 1)))
-            node, edge = node + n, edge + n - 1
-        clamps = [part.nodes.start + part.net.joint[part.joints.clamp] for part in parts]
-        held = np.concatenate([part.nodes.start + part.net.joint[part.joints.support] for part in parts])
-        start = np.concatenate([np.arange(p.nodes.start, p.nodes.stop - 1, dtype=np.int64) for p in parts])
-        edges = np.column_stack((np.append(start, clamps[0]), np.append(start + 1, clamps[1])))
-        order = np.argsort(np.concatenate([part.net.x for part in parts]), kind="stable")
-        free = order[~np.isin(order, held)]
-        place = np.full(node, -1, dtype=np.int64)
+        line = Division.of(task, _LARGEST)
+        edges = np.column_stack((np.append(line.start, line.foot), np.append(line.start + 1, line.top)))
+        order = np.argsort(np.concatenate([part.net.x for part in line.parts]), kind="stable")
+        free = order[~np.isin(order, line.held)]
+        place = np.full(line.node_count, -1, dtype=np.int64)
         place[free] = np.arange(free.size, dtype=np.int64)
-        return cls(task, (parts[0], parts[1]), edges, clamps[0], clamps[1], place)
+        return cls(task, line.parts, edges, line.foot, line.top, place)
 
     def start(self) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return heights of nodes, forces along the track in branches, and forces of droppers.

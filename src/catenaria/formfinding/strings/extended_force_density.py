@@ -13,9 +13,9 @@ from catenaria.formfinding.strings.at_rest import LineAtRest
 from catenaria.formfinding.strings.bays import with_tails
 from catenaria.formfinding.strings.method import Solved
 from catenaria.formfinding.strings.named import named
-from catenaria.formfinding.strings.net import Net
+from catenaria.formfinding.strings.net import Division, Part
 from catenaria.formfinding.strings.sparse import Entries, Matrix, blocks, diagonal, factorised, matrix
-from catenaria.formfinding.strings.task import Joints, StringLine, StringWire
+from catenaria.formfinding.strings.task import StringLine
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -81,22 +81,11 @@ class _State(NamedTuple):
 
 
 @dataclass(frozen=True)
-class _Part:
-    """A wire in the network: its nodes and its branches."""
-
-    wire: StringWire
-    joints: Joints
-    net: Net
-    nodes: slice
-    edges: slice
-
-
-@dataclass(frozen=True)
 class _Network:
     """Both wires and the droppers between them; branches of the wires first."""
 
     task: StringLine
-    parts: tuple[_Part, _Part]
+    parts: tuple[Part, Part]
     edge: IntArray
     free: IntArray
     place: FloatArray
@@ -104,23 +93,11 @@ class _Network:
     @classmethod
     def of(cls, task: StringLine) -> _Network:
         """Divide the wires and number everything."""
-        parts: list[_Part] = []
-        node = edge = 0
-        for wire in (task.contact, task.messenger):
-            joints = wire.joints(task.x)
-            net = Net.of(joints, _LARGEST)
-            n = net.x.size
-            parts.append(_Part(wire, joints, net, slice(node, node + n), slice(edge, edge + n - 1)))
-            node, edge = node + n, edge + n - 1
-        contact, messenger = parts
-        chains = [np.arange(part.nodes.start, part.nodes.stop - 1, dtype=np.int64) for part in parts]
-        clamps = [part.nodes.start + part.net.joint[part.joints.clamp] for part in parts]
-        start = np.concatenate((*chains, clamps[0]))
-        end = np.concatenate((chains[0] + 1, chains[1] + 1, clamps[1]))
-        fixed = np.concatenate([part.nodes.start + part.net.joint[part.joints.support] for part in parts])
-        free = np.setdiff1d(np.arange(node, dtype=np.int64), fixed)
-        place = np.concatenate((contact.net.x, messenger.net.x))
-        return cls(task, (contact, messenger), np.column_stack((start, end)), free, place)
+        line = Division.of(task, _LARGEST)
+        edge = np.column_stack((np.append(line.start, line.foot), np.append(line.start + 1, line.top)))
+        free = np.setdiff1d(np.arange(line.node_count, dtype=np.int64), line.held)
+        place = np.concatenate([part.net.x for part in line.parts])
+        return cls(task, line.parts, edge, free, place)
 
     @property
     def droppers(self) -> slice:
@@ -239,7 +216,7 @@ class _Network:
         nodes, branches = (row, x.size), (row, q.size)
         return np.concatenate(g), matrix(by_x, nodes), matrix(by_z, nodes), matrix(by_q, branches)
 
-    def _tensions(self, part: _Part, q: FloatArray, x: FloatArray, z: FloatArray) -> _Tensions:
+    def _tensions(self, part: Part, q: FloatArray, x: FloatArray, z: FloatArray) -> _Tensions:
         """Return the tension at the prescribed end and its jumps at inner supports, over the wanted one."""
         wire, net = part.wire, part.net
         support = net.joint[part.joints.support]

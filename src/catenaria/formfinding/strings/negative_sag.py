@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,9 +12,9 @@ from catenaria.formfinding.strings.at_rest import LineAtRest
 from catenaria.formfinding.strings.bays import with_tails
 from catenaria.formfinding.strings.method import Solved
 from catenaria.formfinding.strings.named import named
-from catenaria.formfinding.strings.net import Net
+from catenaria.formfinding.strings.net import Division, Part
 from catenaria.formfinding.strings.sparse import Matrix, diagonal, factorised, matrix
-from catenaria.formfinding.strings.task import Joints, StringLine, StringWire
+from catenaria.formfinding.strings.task import StringLine
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -78,16 +77,6 @@ def _refuse_upside_down(task: StringLine, length: FloatArray) -> None:
         raise InfeasibleError(f"droppers would stand upside down: {names}; more tension would help")
 
 
-class _Part(NamedTuple):
-    """A wire: its nodes and its branches."""
-
-    wire: StringWire
-    joints: Joints
-    net: Net
-    nodes: slice
-    edges: slice
-
-
 @dataclass(frozen=True)
 class _Model:
     """A line of given dropper lengths under its weight: strings under tension, droppers as elastic bars.
@@ -96,7 +85,7 @@ class _Model:
     """
 
     task: StringLine
-    parts: tuple[_Part, _Part]
+    parts: tuple[Part, Part]
     C: Matrix
     foot: IntArray
     top: IntArray
@@ -105,23 +94,12 @@ class _Model:
     @classmethod
     def of(cls, task: StringLine) -> _Model:
         """Divide the wires and number everything."""
-        parts: list[_Part] = []
-        node = edge = 0
-        for wire in (task.contact, task.messenger):
-            joints = wire.joints(task.x)
-            net = Net.of(joints, _LARGEST)
-            n = net.x.size
-            parts.append(_Part(wire, joints, net, slice(node, node + n), slice(edge, edge + n - 1)))
-            node, edge = node + n, edge + n - 1
-        foot, top = (part.nodes.start + part.net.joint[part.joints.clamp] for part in parts)
-        held = np.concatenate([part.nodes.start + part.net.joint[part.joints.support] for part in parts])
-        chains = [np.arange(part.nodes.start, part.nodes.stop - 1, dtype=np.int64) for part in parts]
-        start = np.concatenate((*chains, foot))
-        end = np.concatenate((chains[0] + 1, chains[1] + 1, top))
+        line = Division.of(task, _LARGEST)
+        start, end = np.append(line.start, line.foot), np.append(line.start + 1, line.top)
         branch, one = np.arange(start.size, dtype=np.int64), np.ones(start.size)
-        C = matrix([(branch, start, -one), (branch, end, one)], (start.size, node))
-        free = np.setdiff1d(np.arange(node, dtype=np.int64), held)
-        return cls(task, (parts[0], parts[1]), C, foot, top, free)
+        C = matrix([(branch, start, -one), (branch, end, one)], (start.size, line.node_count))
+        free = np.setdiff1d(np.arange(line.node_count, dtype=np.int64), line.held)
+        return cls(task, line.parts, C, line.foot, line.top, free)
 
     def level(self) -> tuple[FloatArray, FloatArray]:
         """Return heights of both wires as they are laid out, and forces along the track."""

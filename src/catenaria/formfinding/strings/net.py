@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from catenaria.catenary.green_bar import stretch
 from catenaria.formfinding.strings.bays import Bays
-from catenaria.formfinding.strings.task import Joints, StringWire
+from catenaria.formfinding.strings.task import Joints, StringLine, StringWire
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -46,3 +46,54 @@ class Net(NamedTuple):
         first = self.joint[:-1]
         V = H * np.diff(z) / self.dx - 0.5 * wire.w * L
         return Bays(z[self.joint], H[first], V[first], np.add.reduceat(L, first))
+
+
+class Part(NamedTuple):
+    """A wire among the nodes and branches of a whole line."""
+
+    wire: StringWire
+    joints: Joints
+    net: Net
+    nodes: slice
+    edges: slice
+
+
+class Division(NamedTuple):
+    """Both wires of a line with their nodes and branches numbered, the contact wire's first.
+
+    Attributes
+    ----------
+    parts : tuple of Part
+        The contact wire and the messenger.
+    start : IntArray, shape (n_branches,)
+        First node of every branch of the wires; the second one is the next.
+    foot, top : IntArray, shape (n,)
+        Nodes at which droppers are clamped to contact wire and messenger.
+    held : IntArray, shape (m,)
+        Nodes at supports.
+    node_count : int
+        Number of nodes.
+    """
+
+    parts: tuple[Part, Part]
+    start: IntArray
+    foot: IntArray
+    top: IntArray
+    held: IntArray
+    node_count: int
+
+    @classmethod
+    def of(cls, task: StringLine, largest: float) -> Division:
+        """Divide both wires into elements that are not longer than `largest` [m]."""
+        parts: list[Part] = []
+        node = edge = 0
+        for wire in (task.contact, task.messenger):
+            joints = wire.joints(task.x)
+            net = Net.of(joints, largest)
+            n = net.x.size
+            parts.append(Part(wire, joints, net, slice(node, node + n), slice(edge, edge + n - 1)))
+            node, edge = node + n, edge + n - 1
+        foot, top = (part.nodes.start + part.net.joint[part.joints.clamp] for part in parts)
+        held = np.concatenate([part.nodes.start + part.net.joint[part.joints.support] for part in parts])
+        start = np.concatenate([np.arange(p.nodes.start, p.nodes.stop - 1, dtype=np.int64) for p in parts])
+        return cls((parts[0], parts[1]), start, foot, top, held, node)
