@@ -41,6 +41,12 @@ def line() -> Line:
 
 
 @pytest.fixture(scope="session")
+def vary(line: Line) -> Callable[[Change], Line]:
+    """Return the example with some values replaced; keys are dotted paths."""
+    return lambda change: changed(line, change)
+
+
+@pytest.fixture(scope="session")
 def paper(line: Line) -> FormResult:
     """The example as it stands."""
     return solve(line, method="dynamic")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
 import pytest
@@ -11,39 +10,15 @@ import pytest
 from catenaria.formfinding.direct import Direct
 from catenaria.formfinding.finite_elements.line_system import LineSystem
 from catenaria.formfinding.finite_elements.registry import ELEMENT_METHODS
-from catenaria.line import Line, load_line
+from catenaria.line import Line
 from catenaria.results import FormResult
-
-EXAMPLE = Path(__file__).parents[3] / "examples" / "yang2017_three_span.yaml"
 
 Change = dict[str, Any]
 
 
 @pytest.fixture(scope="session")
-def line() -> Line:
-    return load_line(EXAMPLE)
-
-
-@pytest.fixture(scope="session")
 def system(line: Line) -> LineSystem:
     return LineSystem.of(line)
-
-
-@pytest.fixture(scope="session")
-def vary(line: Line) -> Callable[[Change], Line]:
-    """Return the example with some values replaced; keys are dotted paths."""
-
-    def changed(change: Change) -> Line:
-        data = line.model_dump()
-        for path, value in change.items():
-            *way, last = path.split(".")
-            place: Any = data
-            for key in way:
-                place = place[key]
-            place[last] = value
-        return Line.model_validate(data)
-
-    return changed
 
 
 @pytest.fixture(scope="session")

@@ -4,45 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from importlib.util import find_spec
-from pathlib import Path
 from typing import Any
 
 import pytest
 
 from catenaria.formfinding.strings.registry import STRING_METHODS
 from catenaria.formfinding.strings.task import StringLine, string_line
-from catenaria.line import Line, load_line
+from catenaria.line import Line
 from catenaria.results import FormResult
 
 PEERS = ("moorpy", "compas_fd")  # extra: bench
 
 collect_ignore = [f"test_{name}.py" for name in PEERS if find_spec(name) is None]
 
-EXAMPLE = Path(__file__).parents[3] / "examples" / "yang2017_three_span.yaml"
-
 Change = dict[str, Any]
-
-
-@pytest.fixture(scope="session")
-def line() -> Line:
-    return load_line(EXAMPLE)
-
-
-@pytest.fixture(scope="session")
-def vary(line: Line) -> Callable[[Change], Line]:
-    """Return the example with some values replaced; keys are dotted paths."""
-
-    def changed(change: Change) -> Line:
-        data = line.model_dump()
-        for path, value in change.items():
-            *way, last = path.split(".")
-            place: Any = data
-            for key in way:
-                place = place[key]
-            place[last] = value
-        return Line.model_validate(data)
-
-    return changed
 
 
 def _uneven(vary: Callable[[Change], Line]) -> Line:
