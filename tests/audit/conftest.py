@@ -1,4 +1,4 @@
-"""The paper's three-span line as two methods find it, and ways to corrupt it."""
+"""The paper's three-span line as two methods find it, lines in space, and ways to corrupt all of them."""
 
 from __future__ import annotations
 
@@ -14,6 +14,8 @@ from catenaria.results import FormResult
 from catenaria.workflow import solve
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "yang2017_three_span.yaml"
+
+Change = Callable[[Any], Any]
 
 
 @pytest.fixture(scope="session")
@@ -40,14 +42,38 @@ def put(whole: Any, path: list[str], change: Callable[[Any], Any]) -> Any:
     return replace(whole, **{name: put(getattr(whole, name), rest, change)})
 
 
-@pytest.fixture
-def corrupted(paper: FormResult) -> Callable[[str, Callable[[Any], Any]], FormResult]:
-    """Change the value at a dotted path of the paper's result; arrays come as copies."""
+@pytest.fixture(scope="session")
+def curve() -> FormResult:
+    """A line in a canted curve with one of every kind of support."""
+    return solve(Path(__file__).with_name("every_support.yaml"), method="direct")
 
-    def corrupt(path: str, change: Callable[[Any], Any]) -> FormResult:
+
+@pytest.fixture(scope="session")
+def compound() -> FormResult:
+    """A straight line with two contact wires, an auxiliary messenger and mid-point anchors."""
+    return solve(Path(__file__).with_name("compound.yaml"), method="direct")
+
+
+@pytest.fixture(scope="session")
+def altered() -> Callable[[FormResult, str, Change], FormResult]:
+    """Change the value at a dotted path of a result; arrays come as copies."""
+
+    def alter(result: FormResult, path: str, change: Change) -> FormResult:
         def on_copy(value: Any) -> Any:
             return change(value.copy() if isinstance(value, np.ndarray) else value)
 
-        return put(paper, path.split("."), on_copy)
+        return put(result, path.split("."), on_copy)
+
+    return alter
+
+
+@pytest.fixture
+def corrupted(
+    paper: FormResult, altered: Callable[[FormResult, str, Change], FormResult]
+) -> Callable[[str, Change], FormResult]:
+    """Change the value at a dotted path of the paper's result."""
+
+    def corrupt(path: str, change: Change) -> FormResult:
+        return altered(paper, path, change)
 
     return corrupt

@@ -82,6 +82,17 @@ def test_other_droppers_pass(change: dict[str, Any]) -> None:
     assert audit_result(solve(other, method="direct")).findings == ()
 
 
+def test_a_pre_sag_is_what_was_asked_for() -> None:
+    """Heights less a parabola that is zero at the first and last dropper; forgotten, it is missed."""
+    line = load_line(EXAMPLE)
+    spans = tuple(span.model_copy(update={"pre_sag": 0.02}) for span in line.spans)
+    result = solve(line.model_copy(update={"spans": spans}), method="direct")
+    assert audit_result(result).findings == ()
+    asked = [span | {"pre_sag": 0.0} for span in result.inputs["spans"]]
+    forgotten = audit_result(replace(result, inputs=result.inputs | {"spans": asked}))
+    assert any(finding.startswith("height at droppers: off by 20 mm") for finding in forgotten.findings)
+
+
 def test_only_the_dynamic_method_may_stop_at_its_bands(paper: FormResult) -> None:
     """Another method that leaves 1.08 dead bands has missed its targets."""
     audit = audit_result(replace(paper, method="direct"))

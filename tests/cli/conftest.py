@@ -36,6 +36,7 @@ def small_result(droppers: int) -> Any:
     return SimpleNamespace(
         inputs=load_line(EXAMPLE).model_dump(mode="json"),
         physics="bending",
+        spatial=False,
         audit=SimpleNamespace(passed=True, findings=(), lines=lambda: ("Audit of equilibrium: passed.",) * 3),
         rebuilt=SimpleNamespace(findings=lambda: (), lines=lambda: ("Rebuilt: comes back.",)),
         stop_reason="contact wire: at rest; messenger wire: at rest",

@@ -163,7 +163,8 @@ def parabola(depth: float) -> Profile:
     """Sample z = depth ((x/5)^2 - 1) from -5 to 5 m: depth ((b - a)/10)^2 below its chord from a to b."""
     x = np.linspace(-5.0, 5.0, 2001)
     none = np.zeros_like(x)
-    return Profile(x + 5.0, x, none, depth * ((x / 5.0) ** 2 - 1.0), none, none, none, none)
+    z = depth * ((x / 5.0) ** 2 - 1.0)
+    return Profile(x + 5.0, x, none, z, none, none, none, none, x, none, z)
 
 
 @pytest.mark.parametrize(

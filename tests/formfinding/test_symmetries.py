@@ -107,6 +107,12 @@ def check_same(found: View, wanted: View, metres: float, newtons: float) -> None
         np.testing.assert_allclose(found[name], value, rtol=0.0, atol=tolerance, err_msg=name)
 
 
+def wanted_heights(line: Line) -> list[list[float]]:
+    """Return the wanted heights of each span."""
+    pairs = list(zip(line.dropper_span, line.dropper_target_height, strict=True))
+    return [[height for span, height in pairs if span == i] for i in range(len(line.spans))]
+
+
 def mirrored(line: Line) -> Line:
     """Return the line as seen from the other side of the track."""
     data = line.model_dump()
@@ -116,9 +122,9 @@ def mirrored(line: Line) -> Line:
         {
             "length": span.length,
             "droppers": {"positions": [span.length - x for x in reversed(span.droppers.x)]},
-            "contact_wire_height": span.heights[::-1],
+            "contact_wire_height": heights[::-1],
         }
-        for span in reversed(line.spans)
+        for span, heights in reversed(list(zip(line.spans, wanted_heights(line), strict=True)))
     ]
     for wire in ("contact_wire", "messenger_wire"):
         at = data[wire]["tension"]["at"]
@@ -190,9 +196,9 @@ def scaled(line: Line, length: float = 1.0, force: float = 1.0, gravity: float =
         {
             "length": length * span.length,
             "droppers": {"positions": [length * x for x in span.droppers.x]},
-            "contact_wire_height": [length * height for height in span.heights],
+            "contact_wire_height": [length * height for height in heights],
         }
-        for span in line.spans
+        for span, heights in zip(line.spans, wanted_heights(line), strict=True)
     ]
     return Line.model_validate(data)
 

@@ -140,6 +140,16 @@ def test_the_echo_of_a_line_is_the_line(write: Write, example_path: Path, bare: 
     assert load_line(write(json.dumps(echo), "echo.json")) == line
 
 
+@pytest.mark.parametrize("bare", [True, False])
+@pytest.mark.parametrize("name", ["stitched", "compound"])
+def test_the_echo_of_a_rich_line_is_the_line(
+    write: Write, request: pytest.FixtureRequest, name: str, bare: bool
+) -> None:
+    line = Line.model_validate(request.getfixturevalue(name))
+    echo = line.model_dump(mode="json", exclude_none=bare)
+    assert load_line(write(json.dumps(echo), "echo.json")) == line
+
+
 def test_merged_mappings_are_read_as_yaml_means_them(
     write: Write, example_text: str, example_path: Path
 ) -> None:

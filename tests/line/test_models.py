@@ -30,13 +30,6 @@ def test_droppers_by_spacing_are_those_by_list() -> None:
         length=65, droppers=Droppers(positions=(4, 13.5, 23, 32.5, 42, 51.5, 61)), contact_wire_height=5.3
     )
     assert by_spacing.droppers.x == by_list.droppers.x
-    assert by_spacing.heights == by_list.heights == (5.3,) * 7
-
-
-def test_one_height_or_one_for_each_dropper() -> None:
-    droppers = Droppers(positions=(10, 20))
-    assert Span(length=30, droppers=droppers, contact_wire_height="5.3 m").heights == (5.3, 5.3)  # pyright: ignore[reportArgumentType]
-    assert Span(length=30, droppers=droppers, contact_wire_height=(5.3, 5.2)).heights == (5.3, 5.2)
 
 
 def test_a_span_may_have_no_dropper(tree: dict[str, Any]) -> None:

@@ -62,6 +62,45 @@ def test_an_independent_validator_accepts_the_example(example_path: Path, tree: 
     assert validator().is_valid(load_line(example_path).model_dump(mode="json"))
 
 
+@pytest.mark.parametrize("name", ["stitched", "compound"])
+def test_an_independent_validator_accepts_rich_lines(name: str, request: pytest.FixtureRequest) -> None:
+    rich = request.getfixturevalue(name)
+    assert validator().is_valid(rich)
+    assert validator().is_valid(Line.model_validate(rich).model_dump(mode="json"))
+
+
+@pytest.mark.parametrize(
+    ("path", "value"),
+    [
+        (("stitch_wire", "tension"), 0),
+        (("stitch_wire", "length"), None),
+        (("mid_point", "clearence"), 0.5),
+        (("contact_wire", "wear"), 0.6),
+        (("contact_wire", "tension", "device", "efficiency"), 0.0),
+        (("second_contact_wire", "droppers"), "all"),
+        (("point_masses", 0, "wire"), "return wire"),
+        (("supports", 1, "contact_wire", "arm", "side"), "outside"),
+        (("supports", 1, "stitch_wire"), "yes"),
+        (("supports", 3, "messenger_wire", "cantilever", "density"), 2700.0),
+        (("supports", 0, "messenger_wire", "friction"), 0.7),
+        (("spans", 0, "pre_sag_per_mille"), "1 mm"),
+        (("track", "rail_spacing"), -1.5),
+        (("dropper", "model"), "rope"),
+        (("other_wires",), []),
+    ],
+)
+def test_model_and_schema_refuse_the_same_in_rich_lines(
+    stitched: dict[str, Any], path: tuple[str | int, ...], value: object
+) -> None:
+    node: Any = stitched
+    for step in path[:-1]:
+        node = node[step]
+    node[path[-1]] = value
+    assert not validator().is_valid(stitched)
+    with pytest.raises(ValidationError):
+        Line.model_validate(stitched)
+
+
 @pytest.mark.parametrize(
     ("path", "value"),
     [

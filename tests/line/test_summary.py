@@ -47,5 +47,47 @@ def test_wanted_and_found_are_counted_on_their_own(tree: dict[str, Any]) -> None
     assert table["Prescribed", "found"] == "2 wire lengths + 21 dropper lengths"
 
 
-def test_all_cells_are_filled(example_path: Path) -> None:
-    assert all(label and value for _, rows in summarise(load_line(example_path)) for label, value in rows)
+def test_a_plain_line_has_no_section_of_what_it_does_not_have(example_path: Path) -> None:
+    titles = [title for title, _ in summarise(load_line(example_path))]
+    assert titles == ["Line", "Contact wire", "Messenger wire", "Droppers", "Prescribed", "Dynamic method"]
+
+
+def test_a_rich_line_in_short(stitched: dict[str, Any]) -> None:
+    table = flat(Line.model_validate(stitched))
+    arms = "at all supports (3 pull-off arm, 1 push-off arm), height 5.5 to 6 m"
+    assert table["Line", "contact wire held"] == arms
+    assert table["Line", "messenger held"] == "2 sliding, 1 spring, 1 clamped, 1 cantilever, 1 bracket"
+    assert table["Line", "friction"] == "0 to 0.02"
+    assert table["Line", "stagger"] == "-0.2 to 0.2 m"
+    assert ("Line", "messenger stagger") not in table
+    assert table["Line", "curve"] == "radius 800 m to the right from 1050 m, 150 m long, cant 100 mm"
+    assert table["Line", "gradient"] == "5 mm/m from 1000 m"
+    assert table["Contact wire", "pulled"] == "at the end only, by a weight"
+    assert table["Contact wire", "efficiency"] == "0.97: 14.55 kN on the wire"
+    assert table["Contact wire", "wear"] == "10 % of the section"
+    assert table["Contact wire", "second wire"] == "40 mm beside it, droppers: both"
+    assert table["Contact wire", "tails"] == "0.5 m beyond the end supports"
+    end = "30 m beyond the support, height 6.5 m, stagger 1.5 m"
+    assert table["Contact wire", "anchor at the end"] == end
+    assert table["Stitch wires", "number"] == "4"
+    assert table["Mid-point anchor", "reach"] == "12 m on the messenger, 0.5 m on the contact wire"
+    assert table["Point masses", "contact wire"] == "insulator, 5 kg"
+    assert table["Point masses", "messenger wire"] == "4 kg"
+    assert table["Droppers", "number"] == "48"
+    assert table["Droppers", "model"] == "rigid"
+    # contact wires, messenger wire, four stitch wires, two wires of the anchor
+    assert table["Prescribed", "wanted"] == "9 tensions + 48 heights"
+    assert table["Prescribed", "found"] == "9 wire lengths + 48 dropper lengths"
+
+
+def test_a_compound_line_in_short(compound: dict[str, Any]) -> None:
+    table = flat(Line.model_validate(compound))
+    assert table["Auxiliary messenger", "tension"] == "8 kN, measured as reaction at the end"
+    assert table["Droppers", "number"] == "21"
+    assert table["Droppers", "auxiliary messenger's"] == "9"
+    assert table["Prescribed", "wanted"] == "3 tensions + 30 heights"
+
+
+def test_all_cells_are_filled(example_path: Path, stitched: dict[str, Any], compound: dict[str, Any]) -> None:
+    for line in (load_line(example_path), *map(Line.model_validate, (stitched, compound))):
+        assert all(label and value for _, rows in summarise(line) for label, value in rows)

@@ -17,6 +17,7 @@ import pytest
 from numpy.typing import NDArray
 
 import catenaria
+from catenaria.mechanics.carrier import Strands
 from catenaria.mechanics.chain import Chain, Section
 from catenaria.mechanics.contribution import Contribution, Relocatable
 from catenaria.mechanics.controls.balance import ForceBalance
@@ -32,16 +33,27 @@ from catenaria.mechanics.controls.measures import (
 )
 from catenaria.mechanics.controls.pull import Pull
 from catenaria.mechanics.controls.target import Targets
+from catenaria.mechanics.controls.track_height import TrackHeight
+from catenaria.mechanics.controls.value import Value
 from catenaria.mechanics.controls.velocity_law import VelocityLaw
+from catenaria.mechanics.elements.arms import Arms
+from catenaria.mechanics.elements.bars import Bars
 from catenaria.mechanics.elements.cable import CableElements
 from catenaria.mechanics.elements.dropper import Droppers
+from catenaria.mechanics.elements.pieces import Pieces
+from catenaria.mechanics.joints.clamps import Clamps
 from catenaria.mechanics.joints.fixed import FixedJoints, normals
 from catenaria.mechanics.joints.guided import GuidedJoints
+from catenaria.mechanics.joints.guides import Guides
+from catenaria.mechanics.joints.held_across import HeldAcross
 from catenaria.mechanics.joints.held_point import HeldPoints
 from catenaria.mechanics.joints.hung_point import HungPoints
 from catenaria.mechanics.joints.sliding import SlidingJoints
 from catenaria.mechanics.joints.spherical import SphericalJoints
+from catenaria.mechanics.joints.supports import Supports
+from catenaria.mechanics.joints.ties import Ties
 from catenaria.mechanics.loads.gravity import Gravity, Ramp
+from catenaria.mechanics.loads.hung_masses import HungMasses
 from catenaria.mechanics.loads.linear import Inertia, RayleighDamping, assemble, point_masses
 from catenaria.mechanics.state import State
 from catenaria.mechanics.system import System
@@ -134,6 +146,37 @@ def bars(clamped: bool) -> Droppers:
     return Droppers(WIRE, upper, *s, one, one, P[:1], x, 50.0, 0.3, 0.1, 0.2, 9.81, at, may_push=True)
 
 
+def leaning(only_pull: bool, length: NDArray[np.int64]) -> Bars:
+    """Return an elastic and a rigid bar from the wire to another one and to itself; slack if it has P[0]."""
+    upper = Strands.on((Chain(OTHER, np.array([0.3, 2.2]), SECTION), WIRE), np.array([0, 1]))
+    s = (S, S[::-1])
+    at = (IN_ELEMENT, np.array([0, 1]))
+    section = (np.array([0.02, 0.0]), np.array([0.3, 0.2]), np.array([0.1, 0.4]), np.array([0.2, 0.5]))
+    return Bars(WIRE, upper, *s, *at, LA[:2], length, *section, 9.81, RAMP, only_pull)
+
+
+def rollers(nodes: NDArray[np.int64] | None = None) -> Supports:
+    """Return a rigid support with friction and a spring with friction the other way."""
+    spring = np.array([[0.3, 0.1, 0.0], [0.1, 0.4, -0.2], [0.0, -0.2, 0.5]])
+    compliance, friction = np.stack((np.zeros((3, 3)), spring)), np.array([0.3, -0.2])
+    return Supports(WIRE, S, LA[:6].reshape(2, 3), IN_ELEMENT, UNIT, compliance, friction, nodes)
+
+
+def brackets() -> HeldAcross:
+    """Return a point held at a height and one with a given lift, on tracks of different directions."""
+    along, lift = np.array([[0.6, 0.8, 0.0], [-0.28, 0.96, 0.0]]), np.array([np.nan, 3.0])
+    return HeldAcross(WIRE, S, LA[:4].reshape(2, 2), IN_ELEMENT, UNIT, along, lift)
+
+
+def arms() -> Arms:
+    return Arms(WIRE, S, LA[:2], IN_ELEMENT, UNIT, np.array([0.9, 1.4]), np.array([2.0, 3.0]), 9.81, RAMP)
+
+
+def pieces() -> Pieces:
+    """Return two cables of two and one elements, both made longer."""
+    return Pieces.of((WIRE, Chain(OTHER, np.array([0.3, 2.2]), SECTION)), P[1:3], 4, 9.81, RAMP)
+
+
 def reaction() -> ReactionTension:
     return ReactionTension(LA[:6].reshape(2, 3), UNIT)
 
@@ -201,6 +244,18 @@ PARTS: dict[str, Entry] = {
     "Controls of dropper force": Entry(lambda: controls(dropper(), P[2:]), complex_step=False),
     "Droppers": Entry(lambda: bars(clamped=False), complex_step=False),
     "Droppers clamped": Entry(lambda: bars(clamped=True), complex_step=False),
+    "Guides": Entry(lambda: Guides(WIRE, S, IN_ELEMENT, 0.3 * UNIT, UNIT[::-1])),
+    "HungMasses": Entry(lambda: HungMasses(WIRE, S, IN_ELEMENT, np.array([2.0, 3.0]), 9.81, RAMP)),
+    "Bars": Entry(lambda: leaning(False, P[[0, 2]])),
+    "Bars elastic taut, rigid slack": Entry(lambda: leaning(True, P[[2, 0]])),
+    "Bars elastic slack, rigid taut": Entry(lambda: leaning(True, P[[0, 2]])),
+    "Supports": Entry(rollers),
+    "Supports of nodes": Entry(lambda: rollers(OTHER[:, :3])),
+    "HeldAcross": Entry(brackets),
+    "Arms": Entry(arms),
+    "Clamps": Entry(lambda: Clamps(WIRE, S, LA[6:].reshape(2, 3), IN_ELEMENT, UNIT)),
+    "Ties": Entry(lambda: Ties(OTHER[:, :3], WIRE, S, IN_ELEMENT, LA[6:].reshape(2, 3))),
+    "Pieces": Entry(pieces, complex_step=False),
     "Given": Entry(lambda: Given(P[:2], np.array([0.1, 0.2]))),
     "Targets": Entry(lambda: Targets.of(controls(strain(), P[2:])), complex_step=False),
 }
@@ -211,6 +266,8 @@ MEASURES: dict[str, Callable[[], Measure]] = {
     "Height": height,
     "DropperForce": dropper,
     "ForceBalance": force_balance,
+    "TrackHeight": lambda: TrackHeight(WIRE, S, IN_ELEMENT, 0.3 * UNIT, UNIT[::-1]),
+    "Value": lambda: Value(LA[[2, 5]]),
     "Pull": lambda: Pull(LA[:6].reshape(2, 3), UNIT),
     "HungForce": hung_force,
 }
@@ -425,8 +482,9 @@ def test_jacobian_after_relocation(name: str) -> None:
     z[S] = [1.9, 0.7]
     state = replace(state, z=z)
     other = part.relocate(z)
-    moved = ("SlidingJoints", "SlidingJoints of nodes", "GuidedJoints", "HungPoints")
-    if name in (*moved, "Controls of strain", "Targets", "Droppers", "Droppers clamped"):
+    moved = ("SlidingJoints", "SlidingJoints of nodes", "GuidedJoints", "HungPoints", "Guides", "HungMasses")
+    moved += ("Supports", "Supports of nodes", "HeldAcross", "Arms", "Clamps", "Ties")
+    if name in (*moved, "Controls of strain", "Targets", "Droppers", "Droppers clamped") or "Bars" in name:
         assert other is not None
         assert isinstance(other, Contribution)
         other = aimed(other, state) if isinstance(other, Controls) else other

@@ -7,21 +7,25 @@ bends it over the length l = sqrt(EJ/T), with the moment F l / 2 exp(-|x| / l).
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
 from catenaria.results import (
+    Arms,
+    Cantilevers,
     Controls,
     Counters,
     Droppers,
     FormResult,
     History,
+    Masses,
     Profile,
     Stage,
     Supports,
+    Ties,
     WireForm,
 )
 
@@ -86,10 +90,11 @@ def wire(name: str, beam: Beam, EA: float, top: float) -> WireForm:
     tension = T * np.sqrt(1.0 + np.gradient(z, x) ** 2)
     strain = tension * (1.0 - T / EA) + moment**2 / beam.EJ
     zero = np.zeros_like(x)
-    profile = Profile(x * (1.0 - T / EA), x, zero, z, tension, strain, zero + T, moment)
+    profile = Profile(x * (1.0 - T / EA), x, zero, z, tension, strain, zero + T, moment, x, zero, z)
     start = np.linspace(-TAIL, at[-1] + TAIL, 60)
     return WireForm(
         name=name,
+        role=name,
         unstressed_length=at[-1] * (1.0 - T / EA),
         stretched_length=at[-1] + 0.01,
         target_tension=T,
@@ -187,9 +192,15 @@ def build(spans: int) -> FormResult:
         method="dynamic",
         stop_reason="every control is at rest within 1.1 dead bands",
         droppers=Droppers(
+            lower_wire=("contact wire",) * n,
+            upper_wire=("messenger wire",) * n,
             span=np.repeat(np.arange(1, spans + 1), 7),
             number=np.tile(np.arange(1, 8), spans),
             x=x,
+            position_bottom=np.column_stack((x, zero, lowered)),
+            position_top=np.column_stack((x, zero, height)),
+            stagger_bottom=zero,
+            stagger_top=zero,
             length=height - lowered,
             unstressed_length=(height - lowered) * (1.0 - 7e-5),
             cut_length=(height - lowered) * (1.0 - 7e-5),
@@ -209,11 +220,17 @@ def build(spans: int) -> FormResult:
         supports=Supports(
             support=(names[0], names[-1], *names),
             wire=("contact wire", "contact wire", *(["messenger wire"] * (spans + 1))),
+            kind=("sliding",) * (spans + 3),
             x=np.concatenate((ends, supports)),
+            y=np.zeros(spans + 3),
             z=np.concatenate((ends * 0.0, supports * 0.0 + 1.5)),
+            chainage=np.concatenate((ends, supports)),
+            stagger=np.zeros(spans + 3),
+            height=np.concatenate((ends * 0.0, supports * 0.0 + 1.5)),
             force_x=np.zeros(spans + 3),
             force_y=np.zeros(spans + 3),
             force_z=np.full(spans + 3, -950.0),
+            force_lateral=np.zeros(spans + 3),
             tension=np.full(spans + 3, 14_990.0),
             sliding_coordinate=np.concatenate((ends, supports)) + TAIL,
         ),
@@ -232,6 +249,114 @@ def build(spans: int) -> FormResult:
         inputs={"gravity": 9.8},
         versions={"catenaria": "0.1.0"},
     )
+
+
+def sides(n: int) -> FloatArray:
+    """Return 1 and -1 in turn: to the left, to the right."""
+    return np.where(np.arange(n) % 2 == 0, 1.0, -1.0)
+
+
+def staggered(form: WireForm, supports: FloatArray) -> WireForm:
+    """Move a wire sideways to the left and right of supports."""
+    lateral = np.interp(form.profile.chainage, supports, 0.2 * sides(supports.size))
+    return replace(form, profile=replace(form.profile, y=lateral, lateral=lateral))
+
+
+def stitch(form: WireForm, at: float, name: str) -> WireForm:
+    """Cut a stitch wire out of a messenger wire."""
+    shape = form.profile
+    inside = np.abs(shape.chainage - at) < 9.0
+    cut = {field: getattr(shape, field)[inside] for field in shape.__dataclass_fields__}
+    below = replace(Profile(**cut), height=cut["height"] - 0.4, z=cut["z"] - 0.4)
+    return replace(form, name=name, role="stitch wire", profile=below)
+
+
+def build_in_space(spans: int) -> FormResult:
+    """Build the result of a line with stagger, steady arms, stitch wires and a slack dropper."""
+    plane = build(spans)
+    chainage = np.linspace(0.0, SPAN * spans, spans + 1)
+    names, n = tuple(f"S{i + 1}" for i in range(spans + 1)), spans + 1
+    contact, messenger = (staggered(form, chainage) for form in plane.wires)
+    stitches = tuple(stitch(messenger, SPAN * i, f"stitch wire S{i + 1}") for i in range(1, spans))
+    side = sides(n)
+    tip = np.column_stack((chainage, 0.2 * side, 0.0 * side))
+    hinge = tip + np.column_stack((0.0 * side, 1.2 * side, 0.3 + 0.0 * side))
+    radial = np.where(np.arange(n) == 1, -30.0, 218.0)
+    one = np.ones(n)
+    droppers, slack = plane.droppers, plane.droppers.force_bottom.copy()
+    slack[2] = -1.5
+    leaning = np.interp(droppers.x, chainage, 0.2 * side)
+    return replace(
+        plane,
+        name=f"Synthetic line of {spans} spans in space",
+        droppers=replace(droppers, force_bottom=slack, stagger_bottom=leaning, stagger_top=0.5 * leaning),
+        wires=(contact, messenger, *stitches),
+        supports=Supports(
+            support=names * 2,
+            wire=("contact wire",) * n + ("messenger wire",) * n,
+            kind=("arm",) * n + ("sliding",) * n,
+            x=np.tile(chainage, 2),
+            y=np.tile(0.2 * side, 2),
+            z=np.repeat([0.0, 1.5], n),
+            chainage=np.tile(chainage, 2),
+            stagger=np.tile(0.2 * side, 2),
+            height=np.repeat([0.0, 1.5], n),
+            force_x=np.zeros(2 * n),
+            force_y=np.tile(-218.0 * side, 2),
+            force_z=np.full(2 * n, -950.0),
+            force_lateral=np.tile(-218.0 * side, 2),
+            tension=np.full(2 * n, 14_990.0),
+            sliding_coordinate=np.tile(chainage, 2),
+        ),
+        arms=Arms(
+            names, ("contact wire",) * n, ("pull-off",) * n, chainage, hinge, tip, 1.4 * side, 0.3 * one,
+            1.24 * one, -0.25 * one, radial * 1.1, radial, 40.0 * one, 80.0 * one,
+        ),
+        ties=Ties(("stitch wire S2",) * 2, ("messenger wire",) * 2, np.array([0, 1]), np.array([56.0, 74.0]),
+                  np.array([56.0, 74.0]), np.array([[2e3, 0.0, -90.0], [-2e3, 0.0, -90.0]])),
+        masses=Masses(("section insulator",), ("contact wire",), one[:1], one[:1], 12.5 * one[:1]),
+        cantilevers=Cantilevers(("S2",), tip[1:2], hinge[1:2], np.array([[0.0, 30.0, -700.0]])),
+        controls=controls_in_space(plane, stitches),
+        histories=(history_in_space(plane, stitches),),
+        counters=(counters("line", 492.0),),
+        stages=(stage("line"),),
+    )  # fmt: skip
+
+
+def controls_in_space(plane: FormResult, stitches: tuple[WireForm, ...]) -> Controls:
+    """Add the tensions of stitch wires to the controls."""
+    controls, more = plane.controls, np.full(len(stitches), 2_000.0)
+    return Controls(
+        name=(*controls.name, *(f"{form.name} tension" for form in stitches)),
+        unit=(*controls.unit, *("N",) * more.size),
+        target=np.append(controls.target, more),
+        value=np.append(controls.value, more),
+        error=np.append(controls.error, 0.0 * more),
+        dead_band=np.append(controls.dead_band, 0.0 * more + 5.0),
+        parameter=np.append(controls.parameter, 0.0 * more),
+    )
+
+
+def history_in_space(plane: FormResult, stitches: tuple[WireForm, ...]) -> History:
+    """Turn the first controls of the first step into those of all tensions."""
+    tensions = tuple(f"{form.name} tension" for form in (*plane.wires, *stitches))
+    first, n = plane.histories[0], len(tensions)
+    return replace(
+        first,
+        step="line",
+        control_name=(*tensions, *first.control_name[n:]),
+        control_unit=("N",) * n + first.control_unit[n:],
+    )
+
+
+@pytest.fixture(scope="session")
+def make_in_space() -> Callable[[int], FormResult]:
+    return build_in_space
+
+
+@pytest.fixture(scope="session")
+def in_space() -> FormResult:
+    return build_in_space(3)
 
 
 @pytest.fixture(scope="session")

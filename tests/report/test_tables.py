@@ -15,12 +15,14 @@ import pytest
 from catenaria.report.tables import TABLES, TableName, table, write_tables
 from catenaria.results import FormResult
 
-UNITS = ("_m", "_N", "_Nm", "_s", "_J", "_m_per_s")
+UNITS = ("_m", "_N", "_Nm", "_s", "_J", "_m_per_s", "_deg", "_kg")
 WITHOUT_UNIT = {
     "span", "dropper", "wire", "support", "step", "order", "tension_measure", "control", "unit", "target",
     "value", "error", "dead_band", "steps", "rejected", "newton_failures", "residuals", "jacobians",
-    "factorisations", "unknowns",
+    "factorisations", "unknowns", "upper_wire", "lower_wire", "slack", "role", "kind", "registration",
+    "enough", "end", "host", "mass",
 }  # fmt: skip
+SPACE_ONLY = {"arms", "ties", "masses", "cantilevers"}
 
 
 def read(folder: Path, name: str) -> list[dict[str, str]]:
@@ -28,15 +30,16 @@ def read(folder: Path, name: str) -> list[dict[str, str]]:
         return list(csv.DictReader(stream))
 
 
-def test_every_column_states_its_unit(result: FormResult) -> None:
+def test_every_column_states_its_unit(in_space: FormResult) -> None:
     for build in TABLES.values():
-        unclear = [name for name in build(result) if not name.endswith(UNITS)]
+        unclear = [name for name in build(in_space) if not name.endswith(UNITS)]
         assert set(unclear) <= WITHOUT_UNIT
 
 
-def test_all_columns_of_a_table_have_one_length(result: FormResult) -> None:
+def test_all_columns_of_a_table_have_one_length(result: FormResult, in_space: FormResult) -> None:
     for build in TABLES.values():
-        assert len({len(values) for values in build(result).values()}) == 1
+        for one in (result, in_space):
+            assert len({len(values) for values in build(one).values()}) == 1
 
 
 def test_dropper_schedule(result: FormResult, tmp_path: Path) -> None:
@@ -46,8 +49,11 @@ def test_dropper_schedule(result: FormResult, tmp_path: Path) -> None:
     assert list(rows[0]) == [
         "span", "dropper", "x_m", "length_m", "cut_length_m", "unstressed_length_m", "force_top_N",
         "force_bottom_N", "height_m", "target_height_m", "height_error_m", "messenger_height_m",
-        "force_error_N",
+        "force_error_N", "chainage_m", "upper_wire", "lower_wire", "stagger_top_m", "stagger_bottom_m",
+        "inclination_deg", "slack",
     ]  # fmt: skip
+    assert (rows[0]["upper_wire"], rows[0]["slack"]) == ("messenger wire", "False")
+    assert (rows[0]["inclination_deg"], rows[0]["chainage_m"]) == ("0.0000", rows[0]["x_m"])
     assert (rows[8]["span"], rows[8]["dropper"], rows[8]["x_m"]) == ("2", "2", "78.50000")
     for row, length, force in zip(rows, result.droppers.length, result.droppers.force_bottom, strict=True):
         assert float(row["length_m"]) == pytest.approx(length, abs=5.1e-6)
@@ -66,6 +72,24 @@ def test_wires_and_supports(result: FormResult, tmp_path: Path) -> None:
         ("S4", "contact wire"),
         ("S1", "messenger wire"),
     ]
+
+
+def test_a_line_in_space_has_tables_of_arms_ties_masses_and_cantilevers(
+    in_space: FormResult, tmp_path: Path
+) -> None:
+    files = {file.stem for file in write_tables(in_space, tmp_path)}
+    assert files == set(TABLES)
+    arms, ties = read(tmp_path, "arms"), read(tmp_path, "ties")
+    assert [row["enough"] for row in arms] == ["True", "False", "True", "True"]
+    assert (arms[1]["support"], arms[1]["radial_N"], arms[1]["angle_deg"]) == ("S2", "-30.000", "-14.3239")
+    assert (arms[0]["hinge_stagger_m"], arms[0]["hinge_y_m"]) == ("1.40000", "1.40000")
+    assert [(row["end"], row["force_x_N"]) for row in ties] == [("start", "2000.000"), ("end", "-2000.000")]
+    assert read(tmp_path, "masses")[0]["mass_kg"] == "12.5"
+    assert read(tmp_path, "cantilevers")[0]["force_z_N"] == "-700.000"
+    droppers, supports = read(tmp_path, "droppers"), read(tmp_path, "supports")
+    assert [row["slack"] for row in droppers[:4]] == ["False", "False", "True", "False"]
+    assert float(droppers[0]["stagger_bottom_m"]) == pytest.approx(0.2 * (1 - 8.0 / 65.0), abs=5e-6)
+    assert (supports[1]["kind"], supports[1]["force_lateral_N"]) == ("arm", "218.000")
 
 
 def test_history_holds_both_steps_below_each_other(result: FormResult, tmp_path: Path) -> None:
@@ -102,8 +126,8 @@ def test_a_zero_never_has_a_sign(result: FormResult, tmp_path: Path) -> None:
 
 def test_a_method_without_dynamic_steps_has_no_history(result: FormResult, tmp_path: Path) -> None:
     files = write_tables(replace(result, histories=(), counters=(), stages=()), tmp_path)
-    assert {file.stem for file in files} == set(TABLES) - {"history", "counters"}
-    assert {file.stem for file in write_tables(result, tmp_path)} == set(TABLES)
+    assert {file.stem for file in files} == set(TABLES) - {"history", "counters"} - SPACE_ONLY
+    assert {file.stem for file in write_tables(result, tmp_path)} == set(TABLES) - SPACE_ONLY
 
 
 def test_equal_results_give_equal_files(make_result: Callable[[int], FormResult], tmp_path: Path) -> None:
@@ -116,9 +140,9 @@ def test_equal_results_give_equal_files(make_result: Callable[[int], FormResult]
 
 
 @pytest.mark.parametrize("name", list(TABLES))
-def test_data_frames_hold_full_precision(result: FormResult, name: TableName) -> None:
-    frame = table(result, name)
-    for column, values in TABLES[name](result).items():
+def test_data_frames_hold_full_precision(in_space: FormResult, name: TableName) -> None:
+    frame = table(in_space, name)
+    for column, values in TABLES[name](in_space).items():
         np.testing.assert_array_equal(frame[column].to_numpy(), np.asarray(values))
 
 

@@ -50,8 +50,7 @@ def test_methods_for_strings_hardly_differ_along_the_line(compared: tuple[Compar
     one, other = (each.differences for each in compared[1:])
     assert one is not None
     assert other is not None
-    np.testing.assert_allclose(one.messenger_height, other.messenger_height, atol=1e-6)
-    np.testing.assert_allclose(one.contact_height, other.contact_height, atol=1e-6)
+    np.testing.assert_allclose(one.height, other.height, atol=1e-6)
 
 
 def test_an_unknown_method_is_refused(small: Line) -> None:
@@ -68,6 +67,14 @@ def test_what_a_method_refuses_is_told(vary: Vary) -> None:
     assert heard == ["direct", "separated"]
 
 
+def test_methods_for_plane_lines_are_refused_lines_in_space(vary: Vary) -> None:
+    direct, separated = compare(vary({"contact_wire.tension.pulled": "end"}), ["separated"])
+    assert direct.result is not None
+    assert (separated.result, separated.refused) == (None, True)
+    assert "contact_wire.tension.pulled" in separated.failure
+    assert "'separated': only direct and dynamic solve it" in separated.failure
+
+
 def test_a_method_that_does_not_converge_is_told(small: Line, monkeypatch: pytest.MonkeyPatch) -> None:
     class Lost:
         def __init__(self, listener: object) -> None: ...
@@ -82,8 +89,8 @@ def test_a_method_that_does_not_converge_is_told(small: Line, monkeypatch: pytes
 
 
 def test_a_failure_of_the_direct_method_is_a_failure(vary: Vary) -> None:
-    with pytest.raises(UnsupportedError, match="pulled"):
-        compare(vary({"contact_wire.tension.pulled": "end"}))
+    with pytest.raises(UnsupportedError, match=r"dropper\.joint"):
+        compare(vary({"contact_wire.tension.pulled": "end", "dropper.joint": "frictionless"}))
 
 
 def test_all_methods_are_compared_by_default(small: Line, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -15,6 +15,7 @@ from catenaria.errors import InconsistentInputError, LineFileError, NotConverged
 from catenaria.line import Line, Mesh
 from catenaria.results import NOT_REBUILT, FormResult
 from catenaria.workflow import METHODS, NEGLECTS, Progress, Rebuild, solve
+from catenaria.workflow.methods import SPATIAL
 
 Vary = Callable[[dict[str, Any]], Line]
 
@@ -117,7 +118,16 @@ def test_an_unknown_method_is_refused_before_the_file_is_read(tmp_path: Path) ->
 @pytest.mark.parametrize("method", METHODS)
 def test_an_unsupported_line_is_refused_before_solving(vary: Vary, method: str) -> None:
     heard: list[Progress] = []
-    with pytest.raises(UnsupportedError, match=r"contact_wire\.tension\.pulled"):
+    line = vary({"contact_wire.tension.pulled": "end", "dropper.joint": "frictionless"})
+    with pytest.raises(UnsupportedError, match=r"dropper\.joint: .* is not solved"):
+        solve(line, method=method, progress=heard.append)
+    assert heard == []
+
+
+@pytest.mark.parametrize("method", [method for method in METHODS if method not in SPATIAL])
+def test_a_line_beyond_the_plane_is_refused_by_methods_for_plane_lines(vary: Vary, method: str) -> None:
+    heard: list[Progress] = []
+    with pytest.raises(UnsupportedError, match=rf"contact_wire\.tension\.pulled: .* the method '{method}'"):
         solve(vary({"contact_wire.tension.pulled": "end"}), method=method, progress=heard.append)
     assert heard == []
 

@@ -47,7 +47,7 @@ def allowance(result: FormResult, wires: tuple[FreeBody, FreeBody]) -> Allowance
     :math:`2\,EA\,d/L` of tension when both ends move, and :math:`2\,T d (1/l_1 + 1/l_2)` of dropper force
     when the wire is bent between joints at the distances l_1, l_2 and neighbours move the opposite way.
     """
-    factor, travel = _stop_criteria(result)
+    factor, travel = stop_criteria(result)
     n = result.droppers.x.size
     bands = dict(zip(result.controls.name, result.controls.dead_band.tolist(), strict=True))
 
@@ -66,7 +66,7 @@ def allowance(result: FormResult, wires: tuple[FreeBody, FreeBody]) -> Allowance
     )
 
 
-def _stop_criteria(result: FormResult) -> tuple[float, float]:
+def stop_criteria(result: FormResult) -> tuple[float, float]:
     """Return how many bands an error and how many metres a control may end away, after the method's rule."""
     if result.method != "dynamic":
         return 1.0, 0.0

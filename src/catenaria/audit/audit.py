@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+import numpy as np
+
 from catenaria.audit import equilibrium, internal_forces, lengths, strings
 from catenaria.audit.allowance import allowance
 from catenaria.audit.beams import FreeBeam
 from catenaria.audit.free_wire import FreeWire, free_bodies, free_wires
+from catenaria.audit.spatial.checks import checks_in_space
 from catenaria.audit.stated import Stated, read_inputs
 from catenaria.audit.targets import target_checks
 from catenaria.audit.verdict import Check, conclude
@@ -16,6 +19,7 @@ from catenaria.results.audit import Audit
 from catenaria.results.form import FormResult
 
 _BENT = {"bending": FreeWire, "beam": FreeBeam}
+_TRACK = np.array([1.0, 0.0, 0.0])  # of plane lines
 
 
 def audit_result(result: FormResult) -> Audit:
@@ -34,7 +38,8 @@ def audit_result(result: FormResult) -> Audit:
     Raises
     ------
     InconsistentInputError
-        If the result lacks an entry for one of the wires, supports or droppers of its line.
+        If the result lacks an entry for one of the wires, supports or droppers of its line, or, in space, one
+        of its arms, ties, masses or cantilevers.
 
     Notes
     -----
@@ -45,6 +50,9 @@ def audit_result(result: FormResult) -> Audit:
     The stated physics is the only parameter: wires whose `physics` is ``string`` must run in the direction
     of the force that the sum of all forces and weights before a point leaves there. Those whose `physics` is
     ``beam`` have one strain in every element and nodes that only turn.
+
+    Results in space, whose wires were found all at once, are checked against a track, supports and joints
+    that are read anew from the echo of the line file; see `catenaria.audit.spatial`.
 
     Not looked at: sags, smallest, largest and mean tensions, what the result keeps for a restart besides the
     wires' nodes, histories, counters.
@@ -58,6 +66,8 @@ def audit_result(result: FormResult) -> Audit:
 
 
 def _checks(result: FormResult) -> Iterator[Check]:
+    if result.spatial:
+        return checks_in_space(result)
     stated = read_inputs(result.inputs)
     if result.physics == "string":
         return _checks_of_strings(result, stated)
@@ -86,7 +96,7 @@ def _checks_of_wires(result: FormResult, stated: Stated, kind: type[FreeWire]) -
     yield equilibrium.node_check(wires)
     for wire in wires:
         yield from equilibrium.wire_checks(wire, stated.droppers.guided)
-        yield from internal_forces.profile_checks(wire)
+        yield from internal_forces.profile_checks(wire, wire.curve.at(wire.form.profile.s), _TRACK)
         yield internal_forces.support_check(wire, result.supports)
         yield from lengths.wire_checks(wire, result.supports)
     yield from equilibrium.dropper_checks(

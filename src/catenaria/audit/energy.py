@@ -5,14 +5,13 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from catenaria.audit.curve import Curve, shape_functions
+from catenaria.audit.curve import INTERVALS, Curve, shape_functions
 from catenaria.audit.quadrature import clenshaw_curtis
 from catenaria.audit.stated import Conductor
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
-_INTERVALS = 12  # 13 points: exact to degree 13, where EA eps^2 has degree 8
 STEP = 1e-30  # complex steps have no cancellation, so the step may vanish against everything
 
 
@@ -33,32 +32,31 @@ def elastic_force(curve: Curve, conductor: Conductor) -> FloatArray:
 
     Notes
     -----
-    Energy (8) with Green strain (9) and curvature (10), differentiated by complex step (Squire & Trapp
-    1998): :math:`\partial U/\partial q_k = \mathrm{Im}\,U(q + ihe_k)/h`, one pass for each of the twelve
-    coordinates of all elements at once. No derivative is written down, so none can be wrong.
+    The density of energy (8) with Green strain (9) and curvature (10) is differentiated by r' and r'' by
+    complex step (Squire & Trapp 1998), :math:`\partial u/\partial a = \mathrm{Im}\,u(a + ih)/h`, one pass for
+    each of the six components in all points at once. No derivative is written down, so none can be wrong.
+    r' and r'' are linear in the coordinates, with the derivatives of the shape functions as coefficients.
     """
-    t, weights = clenshaw_curtis(_INTERVALS)
+    t, weights = clenshaw_curtis(INTERVALS)
     L = curve.L[:, None]
     N1, N2 = (shape_functions(np.broadcast_to(t, (L.size, t.size)), L, order) for order in (1, 2))
-    q, weights = curve.q, weights * L
-    r1, r2 = N1 @ q, N2 @ q
-    force = np.empty_like(q)
-    for k in range(4):
-        for i in range(3):
-            step = np.zeros(3, dtype=np.complex128)
-            step[i] = 1j * STEP
-            density = _energy_density(r1 + N1[..., k, None] * step, r2 + N2[..., k, None] * step, conductor)
-            force[:, k, i] = np.sum(density.imag * weights, axis=1) / STEP
-    return force
+    weights = weights * L
+    by_r1, by_r2 = np.empty_like(curve.slopes), np.empty_like(curve.slopes)
+    r1, r2 = curve.slopes.astype(np.complex128), (N2 @ curve.q).astype(np.complex128)
+    for i in range(3):
+        step = np.zeros(3, dtype=np.complex128)
+        step[i] = 1j * STEP
+        by_r1[..., i] = _energy_density(r1 + step, r2, conductor).imag * weights
+        by_r2[..., i] = bending_density(r1, r2 + step, conductor).imag * weights
+    return (np.swapaxes(N1, 1, 2) @ by_r1 + np.swapaxes(N2, 1, 2) @ by_r2) / STEP
 
 
 def weight(curve: Curve, rhoA: float, gravity: float) -> FloatArray:
     """Return the generalised forces of gravity (17) on every element, shape (n_elements, 4, 3)."""
-    t, weights = clenshaw_curtis(_INTERVALS)
-    L = curve.L[:, None]
-    N = shape_functions(np.broadcast_to(t, (L.size, t.size)), L, 0)
+    t, weights = clenshaw_curtis(INTERVALS)
+    share = weights @ shape_functions(t, np.ones(1), 0)  # of an element of unit length
     force = np.zeros_like(curve.q)
-    force[:, :, 2] = -rhoA * gravity * np.einsum("eg,egk->ek", weights * L, N)
+    force[:, :, 2] = -rhoA * gravity * share * curve.L[:, None] ** np.array([1.0, 2.0, 1.0, 2.0])
     return force
 
 

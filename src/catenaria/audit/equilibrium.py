@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from itertools import pairwise
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,28 +18,34 @@ FloatArray = NDArray[np.float64]
 _GROUP = "equilibrium"
 
 
-def node_check(wires: tuple[FreeWire, FreeWire]) -> Check:
+def node_check(wires: Sequence[FreeWire]) -> Check:
     """Return the balance of every node: energy against weight, supports, droppers and devices."""
     off = [np.max(_in_newtons(wire), axis=1) for wire in wires]
     allowed = [np.full(wire.curve.s.size, wire.force_tolerance) for wire in wires]
-    place = Along(tuple((wire, s) for wire in wires for s in wire.curve.s.tolist()))
+    place = Along(wires, [wire.curve.s for wire in wires])
     return Check(_GROUP, "residual of nodes", "N", np.concatenate(off), np.concatenate(allowed), place)
 
 
 def wire_checks(wire: FreeWire, guided: bool) -> Iterator[Check]:
     """Yield the checks of one wire's equilibrium; droppers are `guided` or slide without friction."""
-    tolerance, name = wire.force_tolerance, wire.stated.name
-    yield _stiffness(wire)
+    name = wire.stated.name
+    yield from balance_checks(wire)
     supports = wire.support_s.size
-    for what, cuts in (("joints", slice(0, -2)), ("supports", slice(0, supports))):
-        names, off = _bodies(wire, wire.joint_s[cuts], wire.joint_name[cuts])
-        label = f"{name}, force and moment between {what}"
-        yield Check(_GROUP, label, "N", off, np.full(off.size, tolerance), names)
-    whole = np.array([_in_balance(*_outer_forces(wire, wire.joint_force))])
-    yield Check(_GROUP, f"{name} as a whole", "N", whole, np.array([tolerance]), ("all its joints",))
     yield _along(wire, slice(0, supports), f"{name}, force of supports along the wire", sliding=True)
     label = f"{name}, force of droppers along the {'track' if guided else 'wire'}"
     yield _along(wire, slice(supports, -2), label, sliding=not guided)
+
+
+def balance_checks(wire: FreeWire) -> Iterator[Check]:
+    """Yield the balance of a wire at its ends, of its pieces between joints, and as a whole."""
+    tolerance, name = wire.force_tolerance, wire.stated.name
+    yield _stiffness(wire)
+    for what, cuts in (("joints", slice(0, -2)), ("supports", slice(0, wire.support_s.size))):
+        names, off = _bodies(wire, wire.joint_s[cuts], wire.joint_name[cuts])
+        label = f"{name}, force and moment between {what}"
+        yield Check(_GROUP, label, "N", off, np.full(off.size, tolerance), names)
+    whole = np.array([in_balance(*outer_forces(wire, wire.joint_force))])
+    yield Check(_GROUP, f"{name} as a whole", "N", whole, np.array([tolerance]), ("all its joints",))
 
 
 def dropper_checks(
@@ -88,8 +93,8 @@ def line_check(
     for wire in wires:
         outer = wire.joint_force.copy()
         outer[wire.support_s.size : -2] = 0.0
-        arms, loads, _ = _outer_forces(wire, outer)
-        points.append(arms + _centre(wire))
+        arms, loads, _ = outer_forces(wire, outer)
+        points.append(arms + centre(wire))
         forces.append(loads)
     pull = np.zeros((droppers.x.size, 3))
     pull[:, 2] = -dropper_weight(droppers, stated.droppers, stated.gravity)
@@ -101,7 +106,7 @@ def line_check(
         up = np.abs(np.sum(force[:, 2:], axis=0))
         return Check(_GROUP, "the line, vertical forces", "N", up, tolerance, ("all reactions and weights",))
     middle = 0.5 * (r.min(axis=0) + r.max(axis=0))
-    off = np.array([_in_balance(r - middle, force, 0.5 * float(np.ptp(r[:, 0])))])
+    off = np.array([in_balance(r - middle, force, 0.5 * float(np.ptp(r[:, 0])))])
     return Check(_GROUP, "the line as a whole", "N", off, tolerance, ("all reactions and weights",))
 
 
@@ -135,38 +140,30 @@ def _bodies(wire: FreeWire, s: FloatArray, names: tuple[str, ...]) -> tuple[tupl
     """Return the pieces of wire between cuts, and what is missing to their balance as rigid bodies [N].
 
     Residuals tested with the rigid motions of a piece: inner forces do no work and drop out, what the cut
-    elements carry is the section force in the weak sense.
+    elements carry is the section force in the weak sense. A rotation moves r like an arm from the middle of
+    the piece and r' like r' itself; moments are told as forces at the ends of the piece.
     """
-    order = sorted(range(s.size), key=s.tolist().__getitem__)
-    knots = np.concatenate((wire.curve.s[:1], s[order], wire.curve.s[-1:]))
-    nodes = [0, *np.searchsorted(wire.curve.s, s[order]).tolist(), wire.curve.s.size]
-    ends = ["its start", *(names[i] for i in order), "its end"]
-    places: list[str] = []
-    off: list[float] = []
-    for i, (first, last) in enumerate(pairwise(nodes)):
-        if last > first:
-            places.append(f"{ends[i]} to {ends[i + 1]}")
-            off.append(_rigid_residual(wire, first, last, float(knots[i + 1] - knots[i])))
-    return tuple(places), np.array(off)
+    curve, order = wire.curve, np.argsort(s, kind="stable")
+    knots = np.concatenate((curve.s[:1], s[order], curve.s[-1:]))
+    nodes = np.concatenate(([0], np.searchsorted(curve.s, s[order]), [curve.s.size]))
+    bodies = np.flatnonzero(np.diff(nodes))
+    first, count = nodes[bodies], np.diff(nodes)[bodies]
+    middle = 0.5 * (curve.r[first] + curve.r[first + count - 1])
+    on_r, on_r1 = wire.residual[:, 0], wire.residual[:, 1]
+    turning = np.cross(curve.r - np.repeat(middle, count, axis=0), on_r) + np.cross(curve.r1, on_r1)
+    force, moment = (np.linalg.norm(np.add.reduceat(on, first), axis=1) for on in (on_r, turning))
+    cuts: list[int] = order.tolist()
+    ends = ("its start", *(names[i] for i in cuts), "its end")
+    places = tuple(f"{ends[i]} to {ends[i + 1]}" for i in bodies.tolist())
+    return places, np.maximum(force, moment / np.diff(knots)[bodies])
 
 
-def _rigid_residual(wire: FreeWire, first: int, last: int, reach: float) -> float:
-    """Return the residual of some nodes tested with their rigid translations and rotations [N].
-
-    A rotation moves r like an arm from the middle and r' like r' itself.
-    """
-    r, r1 = wire.curve.r[first:last], wire.curve.r1[first:last]
-    on_r, on_r1 = wire.residual[first:last, 0], wire.residual[first:last, 1]
-    moment = np.cross(r - 0.5 * (r[0] + r[-1]), on_r) + np.cross(r1, on_r1)
-    force = np.linalg.norm(on_r.sum(axis=0))
-    return max(float(force), float(np.linalg.norm(moment.sum(axis=0))) / reach)
-
-
-def _centre(wire: FreeWire) -> FloatArray:
+def centre(wire: FreeWire) -> FloatArray:
+    """Return the middle between the ends of a wire [m]."""
     return 0.5 * (wire.curve.r[0] + wire.curve.r[-1])
 
 
-def _outer_forces(wire: FreeWire, joint_force: FloatArray) -> tuple[FloatArray, FloatArray, float]:
+def outer_forces(wire: FreeWire, joint_force: FloatArray) -> tuple[FloatArray, FloatArray, float]:
     """Return arms from the middle, forces of joints and weight without any energy, and half the length.
 
     Weight acts at the first moments of its elements, which its generalised forces hold exactly: on r_i and
@@ -174,14 +171,14 @@ def _outer_forces(wire: FreeWire, joint_force: FloatArray) -> tuple[FloatArray, 
     """
     load = weight(wire.curve, wire.stated.conductor.rhoA, wire.gravity)
     total = load[:, 0] + load[:, 2]
-    q = wire.curve.q - np.array([1.0, 0.0, 1.0, 0.0])[:, None] * _centre(wire)
+    q = wire.curve.q - np.array([1.0, 0.0, 1.0, 0.0])[:, None] * centre(wire)
     point = np.einsum("ek,eki->ei", load[:, :, 2] / total[:, 2:], q)
-    arms = np.concatenate((wire.curve.at(wire.joint_s).r - _centre(wire), point))
+    arms = np.concatenate((wire.curve.at(wire.joint_s).r - centre(wire), point))
     forces = np.concatenate((joint_force, total))
     return arms, forces, 0.5 * float(np.linalg.norm(wire.curve.r[-1] - wire.curve.r[0]))
 
 
-def _in_balance(arms: FloatArray, forces: FloatArray, reach: float) -> float:
+def in_balance(arms: FloatArray, forces: FloatArray, reach: float) -> float:
     """Return the larger of resultant force and resultant moment over `reach` [N]."""
     force, moment = forces.sum(axis=0), np.cross(arms, forces).sum(axis=0)
     return max(float(np.linalg.norm(force)), float(np.linalg.norm(moment)) / reach)

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
-from catenaria.audit.curve import Curve
+from catenaria.audit.curve import INTERVALS, Curve
 from catenaria.audit.energy import nodal_residual
 from catenaria.audit.quadrature import clenshaw_curtis
 from catenaria.audit.stated import Stated, StatedWire
@@ -136,11 +137,9 @@ class FreeWire(FreeBody):
     @property
     def mean_tension(self) -> FloatArray:
         """The mean over each element of the true axial force EA eps |r'| [N]."""
-        points, weights = clenshaw_curtis(12)
-        s = self.curve.s[:-1, None] + self.curve.L[:, None] * points
-        size = np.linalg.norm(self.curve.at(s.ravel()).r1, axis=1)
-        force = 0.5 * self.stated.conductor.EA * (size**2 - 1.0) * size
-        return force.reshape(s.shape) @ weights
+        _, weights = clenshaw_curtis(INTERVALS)
+        size = np.linalg.norm(self.curve.slopes, axis=2)
+        return (0.5 * self.stated.conductor.EA * (size**2 - 1.0) * size) @ weights
 
     def position(self, s: FloatArray) -> FloatArray:
         """Return where the points with the given material coordinates are, shape (n, 3) [m]."""
@@ -154,14 +153,26 @@ class FreeWire(FreeBody):
 
 @dataclass(frozen=True)
 class Along:
-    """Names of places along wires, made up when asked for."""
+    """Names of places along wires, made up when asked for.
 
-    places: tuple[tuple[FreeBody, float], ...]
+    Attributes
+    ----------
+    wires : sequence of FreeBody
+        The wires.
+    s : sequence of FloatArray
+        Material coordinates of the places on each of them [m].
+    """
+
+    wires: Sequence[FreeBody]
+    s: Sequence[FloatArray]
 
     def __getitem__(self, i: int, /) -> str:
-        """Return the name of one place."""
-        wire, s = self.places[i]
-        return f"{wire.stated.name}, {wire.place(s)}"
+        """Return the name of one place, counted along all wires."""
+        for wire, s in zip(self.wires, self.s, strict=True):
+            if i < s.size:
+                return f"{wire.stated.name}, {wire.place(float(s[i]))}"
+            i -= s.size
+        raise IndexError(i)
 
 
 def free_wires(

@@ -17,21 +17,37 @@ FloatArray = NDArray[np.float64]
 _GROUP = "equilibrium"
 
 
-def profile_checks(wire: FreeWire) -> Iterator[Check]:
-    """Yield the checks of stated tensions, strain tensions, horizontal components and moments."""
+def profile_checks(wire: FreeWire, at: Points, along: FloatArray) -> Iterator[Check]:
+    """Yield the checks of stated tensions, strain tensions, horizontal components and moments.
+
+    Parameters
+    ----------
+    wire : FreeWire
+        The wire.
+    at : Points
+        Its curve in the n points of its profile.
+    along : FloatArray, shape (3,) or (n, 3)
+        Direction of the track there.
+    """
     shape, kind = wire.form.profile, wire.stated.conductor
-    at = wire.curve.at(shape.s)
-    size = np.linalg.norm(at.r1, axis=1)
+    s, size = shape.s, np.linalg.norm(at.r1, axis=1)
     middle = 0.5 * (wire.curve.s[:-1] + wire.curve.s[1:])
-    tension = np.interp(shape.s, middle, wire.mean_tension)
-    after, before = (kind.EJ * _curvature(at) for at in (at, wire.curve.at(shape.s, side="left")))
+    tension = np.interp(s, middle, wire.mean_tension)
+    after = kind.EJ * _curvature(at)
+    before, nodes = after.copy(), np.flatnonzero(np.isin(s, wire.curve.s))
+    before[nodes] = kind.EJ * _curvature(wire.curve.at(s[nodes], side="left"))
     moment = np.clip(shape.moment, np.minimum(before, after), np.maximum(before, after))
-    allowed = np.full(shape.s.shape, wire.force_tolerance)
-    places = Along(tuple((wire, s) for s in shape.s.tolist()))
+    allowed = np.full(s.shape, wire.force_tolerance)
+    places = Along((wire,), (s,))
     for name, unit, said, found in (
         ("profile, tension", "N", shape.tension, tension),
-        ("profile, strain tension (11)", "N", shape.strain_tension, wire.strain_tension(shape.s)),
-        ("profile, horizontal component", "N", shape.horizontal, tension * at.r1[:, 0] / size),
+        ("profile, strain tension (11)", "N", shape.strain_tension, wire.strain_tension(s)),
+        (
+            "profile, horizontal component",
+            "N",
+            shape.horizontal,
+            tension * np.sum(at.r1 * along, axis=1) / size,
+        ),
         ("profile, bending moment", "N m", shape.moment, moment),
     ):
         yield Check(_GROUP, name, unit, np.abs(said - found), allowed, places)

@@ -28,12 +28,12 @@ def wire_checks(wire: FreeWire, supports: Supports) -> Iterator[Check]:
     off = np.maximum(np.max(np.abs(at - stated.support), axis=1), np.max(np.abs(table), axis=1))
     yield _check(f"{name}, place at supports", off, wire.joint_name[: off.size])
 
-    ends = stated.support[[0, -1]] + np.outer([-1.0, 1.0], [stated.tail + form.travel, 0.0, 0.0])
+    ends = stated.ends + form.travel * stated.outwards
     off = np.linalg.norm(wire.curve.r[[0, -1]] - ends, axis=1)
     yield _check(f"{name}, place of ends after their travel", off, wire.joint_name[-2:])
 
     first, last = wire.support_s[[0, -1]]
-    laid = stated.support[-1, 0] - stated.support[0, 0] + 2.0 * stated.tail
+    laid = stated.ends[1, 0] - stated.ends[0, 0]
     off = np.abs(
         [
             form.unstressed_length - (last - first),
@@ -47,7 +47,7 @@ def wire_checks(wire: FreeWire, supports: Supports) -> Iterator[Check]:
     shape = form.profile
     r = np.column_stack((shape.x, shape.y, shape.z))
     off = np.linalg.norm(wire.curve.at(shape.s).r - r, axis=1)
-    yield _check("profile", off, Along(tuple((wire, s) for s in shape.s.tolist())))
+    yield _check("profile", off, Along((wire,), (shape.s,)))
 
 
 def dropper_checks(wires: tuple[FreeBody, FreeBody], droppers: Droppers, stated: Stated) -> Iterator[Check]:

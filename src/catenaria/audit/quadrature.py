@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 from numpy.typing import NDArray
 
 FloatArray = NDArray[np.float64]
 
 
+@cache
 def clenshaw_curtis(intervals: int) -> tuple[FloatArray, FloatArray]:
     r"""Return points and weights on [0, 1], both ends included.
 
@@ -19,6 +22,7 @@ def clenshaw_curtis(intervals: int) -> tuple[FloatArray, FloatArray]:
     Returns
     -------
     points, weights : FloatArray, shape (intervals + 1,)
+        Read-only: they are made once.
 
     Notes
     -----
@@ -43,4 +47,7 @@ def clenshaw_curtis(intervals: int) -> tuple[FloatArray, FloatArray]:
     b = np.where(2 * j == intervals, 1.0, 2.0) / (4.0 * j * j - 1.0)
     c = np.where((k == 0) | (k == intervals), 1.0, 2.0) / intervals
     w = c * (1.0 - np.cos(2.0 * np.pi / intervals * np.outer(k, j)) @ b)
-    return 0.5 - 0.5 * np.cos(np.pi * k / intervals), 0.5 * w
+    points, weights = 0.5 - 0.5 * np.cos(np.pi * k / intervals), 0.5 * w
+    for shared in (points, weights):
+        shared.flags.writeable = False
+    return points, weights

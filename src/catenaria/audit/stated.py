@@ -37,8 +37,8 @@ class StatedWire:
         The m supports that hold it.
     support : FloatArray, shape (m, 3)
         Where they hold it [m].
-    tail : float
-        Unstressed length beyond the first and the last support before the ends were pulled [m].
+    ends, outwards : FloatArray, shape (2, 3)
+        Where its start and end were before they were pulled [m], and the unit vectors in which they are.
     tension : float
         Prescribed tension [N].
     measure : str
@@ -51,7 +51,8 @@ class StatedWire:
     conductor: Conductor
     support_name: tuple[str, ...]
     support: FloatArray
-    tail: float
+    ends: FloatArray
+    outwards: FloatArray
     tension: float
     measure: str
     at_end: bool
@@ -91,7 +92,8 @@ def read_inputs(inputs: Inputs) -> Stated:
     return Stated(float(inputs["gravity"]), (contact, messenger), _droppers(inputs))
 
 
-def _support_x(inputs: Inputs) -> FloatArray:
+def support_chainages(inputs: Inputs) -> FloatArray:
+    """Return where the supports stand along the track [m]."""
     lengths = (span["length"] for span in inputs["spans"])
     return np.array(list(accumulate(lengths, initial=inputs["start_chainage"])), dtype=np.float64)
 
@@ -102,13 +104,16 @@ def _wire(inputs: Inputs, name: str) -> StatedWire:
     held = [i for i, support in enumerate(supports) if support[key] is not None]
     height = [_height(supports[i], key) for i in held]
     tension = wire["tension"]
+    support = np.column_stack((support_chainages(inputs)[held], np.zeros(len(held)), height))
+    outwards = np.array([[-1.0, 0.0, 0.0], [1.0, 0.0, 0.0]])
     return StatedWire(
         name=name,
-        conductor=_conductor(inputs, wire["conductor"]),
+        conductor=read_conductor(inputs, wire["conductor"]),
         support_name=tuple(supports[i]["name"] for i in held),
-        support=np.column_stack((_support_x(inputs)[held], np.zeros(len(held)), height)),
-        tail=wire["tail"],
-        tension=tension["force"],
+        support=support,
+        ends=support[[0, -1]] + wire["tail"] * outwards,
+        outwards=outwards,
+        tension=tension["force"] * tension["device"]["efficiency"],
         measure=tension["measure"],
         at_end=tension["at"] == "end",
     )
@@ -120,8 +125,13 @@ def _height(support: Inputs, key: str) -> float:
     return support["contact_wire"]["height"] + support[key]["encumbrance"] if height is None else height
 
 
-def _conductor(inputs: Inputs, name: str) -> Conductor:
-    data = inputs["conductors"][name]
+def read_conductor(inputs: Inputs, name: str) -> Conductor:
+    """Return the cross-section with a name in the line file."""
+    return conductor_of(name, inputs["conductors"][name])
+
+
+def conductor_of(name: str, data: dict[str, Any]) -> Conductor:
+    """Return a cross-section from its data in the line file."""
     rhoA = data["mass_per_length"]
     if rhoA is None:
         rhoA = data["density"] * data["area"]
@@ -132,15 +142,14 @@ def _droppers(inputs: Inputs) -> StatedDroppers:
     kind = inputs["dropper"]
     x: list[float] = []
     height: list[float] = []
-    for start, span in zip(_support_x(inputs), inputs["spans"], strict=False):
-        places = _places(span["droppers"])
+    for i, (start, span) in enumerate(zip(support_chainages(inputs), inputs["spans"], strict=False)):
+        places = dropper_places(span["droppers"])
         x += [start + place for place in places]
-        wanted = span["contact_wire_height"]
-        height += wanted if isinstance(wanted, list) else [wanted] * len(places)
+        height += wanted_heights(inputs, i).tolist()
     return StatedDroppers(
         x=np.array(x),
         target_height=np.array(height),
-        conductor=_conductor(inputs, kind["conductor"]),
+        conductor=read_conductor(inputs, kind["conductor"]),
         guided=kind["joint"] == "guided",
         mass_top=kind["clamp_mass_top"],
         mass_bottom=kind["clamp_mass_bottom"],
@@ -148,7 +157,38 @@ def _droppers(inputs: Inputs) -> StatedDroppers:
     )
 
 
-def _places(droppers: Inputs) -> list[float]:
+def dropper_places(droppers: dict[str, Any]) -> list[float]:
+    """Return distances of droppers from the beginning of their span [m]."""
     if droppers["positions"] is not None:
         return list(droppers["positions"])
     return [droppers["first"] + i * droppers["spacing"] for i in range(droppers["count"])]
+
+
+def listed(heights: float | list[float], n: int) -> list[float]:
+    """Return n heights of which a line file gives one for all, or a list."""
+    return heights if isinstance(heights, list) else [heights] * n
+
+
+def wanted_heights(inputs: Inputs, i: int) -> FloatArray:
+    """Return the wanted heights of the contact wire at the droppers of span i, with its pre-sag [m].
+
+    Notes
+    -----
+    Heights that are not given are on the line between the nearest supports that hold the contact wire.
+    """
+    span: Inputs = inputs["spans"][i]
+    chainage = support_chainages(inputs)
+    x = np.array(dropper_places(span["droppers"]), dtype=np.float64)
+    wanted = span["contact_wire_height"]
+    if wanted is None:
+        contact: list[Inputs | None] = [support["contact_wire"] for support in inputs["supports"]]
+        held = np.array([how is not None for how in contact], dtype=np.bool_)
+        known = np.array([how["height"] for how in contact if how is not None], dtype=np.float64)
+        height = np.interp(float(chainage[i]) + x, chainage[held], known)
+    else:
+        height = np.array(listed(wanted, x.size), dtype=np.float64)
+    share = span["pre_sag_per_mille"]
+    depth = span["pre_sag"] if share is None else 1e-3 * share * span["length"]
+    if depth == 0.0 or x.size < 3:
+        return height
+    return height - 4.0 * depth * (x - x[0]) * (x[-1] - x) / (x[-1] - x[0]) ** 2

@@ -91,7 +91,7 @@ def _course(wire: FreeBody) -> Iterator[Check]:
     T = _size(F)
     along = np.einsum("ni,ni->n", gap, F) / T
     across = _size(gap - along[:, None] * F / T[:, None])
-    places = Along(tuple((wire, s) for s in middle.tolist()))
+    places = Along((wire,), (middle,))
     yield _forces(wire, f"{wire.stated.name}, force across the string", across * T / ds, places)
     yield _metres(f"{wire.stated.name}, stretched length between points", np.abs(along), places)
 
@@ -103,7 +103,7 @@ def _stated_forces(wire: FreeBody, tolerance: float) -> Iterator[Check]:
     F[0][0], F[1][-1] = F[1][0], F[0][-1]  # there is no wire before the start and behind the end
     T = [_size(side) for side in F]
     strain = [size / green_stretch(size / EA) for size in T]
-    places = Along(tuple((wire, s) for s in shape.s.tolist()))
+    places = Along((wire,), (shape.s,))
     for name, said, sides in (
         ("profile, tension", shape.tension, T),
         ("profile, strain tension (11)", shape.strain_tension, strain),
@@ -123,8 +123,7 @@ def _places(wire: FreeBody, supports: Supports) -> Iterator[Check]:
     table = np.column_stack((supports.x, supports.z))[held] - stated.support[:, [0, 2]]
     off = np.maximum(_size(at - stated.support), np.max(np.abs(table), axis=1))
     yield _metres(f"{stated.name}, place at supports", off, places[: off.size])
-    reach = stated.tail + wire.form.travel
-    ends = stated.support[[0, -1]] + np.outer([-1.0, 1.0], [reach, 0.0, 0.0])
+    ends = stated.ends + wire.form.travel * stated.outwards
     off = _size(wire.position(wire.end_s) - ends)
     yield _metres(f"{stated.name}, place of ends after their travel", off, places[-2:])
     T = _size(inner_force(wire, wire.support_s, after=True))
@@ -145,7 +144,7 @@ def _lengths(wire: FreeBody) -> Iterator[Check]:
         inside = F.copy()
         inside[:, 2] += (point - 0.5) * ds * stated.conductor.rhoA * wire.gravity
         stretched += float(share * ds @ green_stretch(_size(inside) / stated.conductor.EA))
-    laid = stated.support[-1, 0] - stated.support[0, 0] + 2.0 * stated.tail
+    laid = stated.ends[1, 0] - stated.ends[0, 0]
     off = np.abs(
         [
             form.unstressed_length - (last - first),

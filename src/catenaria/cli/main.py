@@ -7,9 +7,15 @@ from typing import Annotated
 import typer
 
 from catenaria import __version__
+from catenaria.cli.batch import batch
 from catenaria.cli.compare import compare
 from catenaria.cli.describe import check, schema
+from catenaria.cli.load import load
+from catenaria.cli.network import network
+from catenaria.cli.new import new
+from catenaria.cli.rounding import rounding
 from catenaria.cli.solve import solve
+from catenaria.cli.tolerance import tolerance
 from catenaria.cli.validate import validate
 
 app = typer.Typer(
@@ -22,8 +28,14 @@ app = typer.Typer(
 app.command()(solve)
 app.command()(check)
 app.command()(schema)
+app.command()(new)
 app.command()(validate)
 app.command()(compare)
+app.command()(batch)
+app.command()(network)
+app.command()(load)
+app.command()(rounding)
+app.command()(tolerance)
 
 
 def _show_version(wanted: bool) -> None:

@@ -9,10 +9,13 @@ from rich import box
 from rich.console import Console
 from rich.table import Table
 
+from catenaria.cli.space_lines import space_lines
+
 if TYPE_CHECKING:
     from catenaria.results import Counters, FormResult
 
 _MOST_ROWS = 24
+_HELD = {"contact wire": "contact", "second contact wire": "second", "auxiliary messenger": "aux."}
 
 
 def show_result(result: FormResult, console: Console) -> None:
@@ -22,7 +25,11 @@ def show_result(result: FormResult, console: Console) -> None:
     if hidden > 0:
         console.print(f"  ... and {hidden} more in droppers.csv\n")
     console.print(_wire_table(result))
+    hidden = len(result.wires) - _MOST_ROWS
+    if hidden > 0:
+        console.print(f"  ... and {hidden} more in wires.csv\n")
     for line in (
+        *space_lines(result),
         *_error_lines(result),
         *_counter_lines(result),
         *result.audit.lines(),
@@ -41,8 +48,10 @@ def _cautions(result: FormResult) -> tuple[str, ...]:
 
 def _dropper_table(result: FormResult) -> Table:
     droppers = result.droppers
-    columns = ("span", "dropper", "x [m]", "length [m]", "cut to [m]", "force [N]", "height error [mm]")
-    table = _table("Droppers", *columns)
+    columns = ("span", "dropper", "x [m]", "length [m]", "cut to [m]", "force [N]")
+    several = result.spatial and len(set(droppers.lower_wire)) > 1
+    last = ("error [mm]", "holds") if several else ("height error [mm]",)
+    table = _table("Droppers", *columns, *last)
     for i in range(min(_MOST_ROWS, len(droppers.x))):
         table.add_row(
             str(droppers.span[i]),
@@ -52,6 +61,7 @@ def _dropper_table(result: FormResult) -> Table:
             f"{droppers.cut_length[i]:.4f}",
             f"{droppers.force_bottom[i]:.2f}",
             f"{1e3 * droppers.height_error[i]:.3f}",
+            *((_HELD.get(droppers.lower_wire[i], ""),) if several else ()),
         )
     return table
 
@@ -61,18 +71,18 @@ def _wire_table(result: FormResult) -> Table:
         "Wires: unstressed length between the end supports",
         "",
         "tension [N]",
-        "wanted [N]",
+        "wanted",
         "length [m]",
         "travel [mm]",
         "sag [mm]",
     )
-    for wire in result.wires:
+    for wire in result.wires[:_MOST_ROWS]:
         table.add_row(
             wire.name,
             f"{wire.tension:.1f}",
             f"{wire.target_tension:.1f}",
             f"{wire.unstressed_length:.4f}",
-            f"{1e3 * wire.travel:.1f}",
+            f"{round(1e3 * wire.travel, 1) + 0.0:.1f}",  # a zero never has a sign
             f"{1e3 * wire.sag:.2f}",
         )
     return table
@@ -88,8 +98,8 @@ def _table(title: str, *columns: str) -> Table:
 
 
 def _error_lines(result: FormResult) -> list[str]:
-    height = 1e3 * np.max(np.abs(result.droppers.height_error))
-    force = np.max(np.abs(result.droppers.force_error))
+    height = 1e3 * np.max(np.abs(result.droppers.height_error), initial=0.0)
+    force = np.max(np.abs(result.droppers.force_error), initial=0.0)
     tension = max(abs(wire.tension_error) for wire in result.wires)
     return [
         f"Stopped: {result.stop_reason}.",

@@ -92,7 +92,7 @@ def _droppers(
         up=up,
         length=kind.guessed_length,
         elements=kind.elements,
-        section=section(line.conductors[kind.conductor]),
+        section=section(line.conductor(kind.conductor)),
         clamp_mass=clamp_mass,
         guided=kind.joint == "guided",
         target=target,
@@ -115,7 +115,7 @@ def _setup(
     dynamic, mesh = line.solver.dynamic, line.solver.mesh
     return WireSetup(
         name=name,
-        section=section(line.conductors[wire.conductor]),
+        section=section(line.conductor(wire.conductor)),
         support_x=x,
         height=height,
         tail=wire.tail,

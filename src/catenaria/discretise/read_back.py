@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from numpy.typing import NDArray
 
 from catenaria.discretise.wire_model import WireModel
+from catenaria.line.alignment import Frames
 from catenaria.mechanics.chain import Chain, Points
 from catenaria.mechanics.controls.control import Controls as ControlBatch
 from catenaria.numerics.gauss import gauss_legendre
@@ -14,12 +17,25 @@ from catenaria.results.form import Profile, Stage, WireForm
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 
-_NEAR = 0.05  # m by which an element may lie beyond a support and still count as between supports
+NEAR = 0.05  # m by which an element may lie beyond a support and still count as between supports
 _SAMPLES = 8  # points in each element: the sag of a 9.5 m bay is then met to 0.01 mm
 
 
-def profile(chain: Chain, z: FloatArray) -> Profile:
+OnTrack = Callable[[FloatArray, FloatArray], Frames]
+
+
+def profile(chain: Chain, z: FloatArray, on_track: OnTrack | None = None) -> Profile:
     """Return position and internal forces along a cable, eqs. (9)-(11), at several points of each element.
+
+    Parameters
+    ----------
+    chain : Chain
+        The cable.
+    z : FloatArray
+        Unknowns.
+    on_track : callable, optional
+        Returns the track frames at which points are, from their material coordinates (n,) and their
+        positions (n, 3); without it the track is the x axis.
 
     Notes
     -----
@@ -35,8 +51,14 @@ def profile(chain: Chain, z: FloatArray) -> Profile:
     N = chain.section.EA * 0.5 * (size**2 - 1.0)
     kappa = 0.5 * (_curvature(point) + _curvature(chain.evaluate(z, s, _element_before(chain, s))))
     x, y, up = point.r.T.copy()
+    chainage, lateral, height, along = x, y, up, point.r1[:, 0]
+    if on_track is not None:
+        frames = on_track(s, point.r)
+        chainage, lateral, height = frames.chainage, frames.lateral(point.r), frames.height(point.r)
+        along = np.einsum("ni,ni->n", frames.along, point.r1)
     tension = np.interp(s, chain.knots[:-1] + 0.5 * chain.L, element_tension(chain, z))
-    return Profile(s, x, y, up, tension, N, tension * point.r1[:, 0] / size, chain.section.EJ * kappa)
+    moment = chain.section.EJ * kappa
+    return Profile(s, x, y, up, tension, N, tension * along / size, moment, chainage, lateral, height)
 
 
 def _curvature(point: Points) -> FloatArray:
@@ -70,10 +92,11 @@ def stretched_length(chain: Chain, z: FloatArray, start: float, end: float) -> f
     return float(np.sum(size.reshape(half.shape[0], -1) * weights * half))
 
 
-def sag(shape: Profile, x: FloatArray, height: FloatArray) -> float:
+def sag(shape: Profile, chainage: FloatArray, height: FloatArray) -> float:
     """Return the largest depth of a wire below the chords between the given points on it [m]."""
-    inside = (shape.x >= x[0]) & (shape.x <= x[-1])
-    return float(np.max(np.interp(shape.x[inside], x, height) - shape.z[inside], initial=0.0))
+    inside = (shape.chainage >= chainage[0]) & (shape.chainage <= chainage[-1])
+    chord = np.interp(shape.chainage[inside], chainage, height)
+    return float(np.max(chord - shape.height[inside], initial=0.0))
 
 
 def support_strain_tension(model: WireModel, z: FloatArray) -> FloatArray:
@@ -92,7 +115,7 @@ def wire_form(model: WireModel, control: ControlBatch, t: float, z: FloatArray) 
     wire, setup = model.wire, model.setup
     shape = profile(wire, z)
     s_start, s_end = z[model.support_s[[0, -1]]]
-    between = (wire.knots[:-1] >= s_start - _NEAR) & (wire.knots[1:] <= s_end + _NEAR)
+    between = (wire.knots[:-1] >= s_start - NEAR) & (wire.knots[1:] <= s_end + NEAR)
     tension, L = element_tension(wire, z)[between], wire.L[between]
     error = float(control.error(t, z)[0])
     force = np.linalg.norm(z[model.end_force], axis=1)
@@ -102,6 +125,7 @@ def wire_form(model: WireModel, control: ControlBatch, t: float, z: FloatArray) 
     hung = wire.evaluate(z, hung_s).r
     return WireForm(
         name=setup.name,
+        role=setup.name,
         unstressed_length=float(s_end - s_start),
         stretched_length=stretched_length(wire, z, float(s_start), float(s_end)),
         target_tension=setup.tension.force,

@@ -1,7 +1,8 @@
 """The direct method: equilibrium together with all targets, in one Newton iteration for each wire.
 
 The same systems as those of the dynamic equilibrium method, without inertia and with controls as equations:
-the fixed point of the controlled motion with dead bands of zero, staged like the paper's three steps.
+the fixed point of the controlled motion with dead bands of zero, staged like the paper's three steps. Lines
+in space are found all at once; see `catenaria.formfinding.spatial`.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ from catenaria.errors import NotConvergedError, SingularError
 from catenaria.formfinding.find_wire import find_wire
 from catenaria.formfinding.progress import Listener, Progress
 from catenaria.formfinding.refusals import dropper_names, refuse_compression
+from catenaria.formfinding.spatial.direct import find_directly
 from catenaria.formfinding.third_step import gather
 from catenaria.formfinding.wire_task import guessed_clamps
 from catenaria.line import Line
@@ -55,6 +57,8 @@ class Direct:
         SingularError
             If what is prescribed leaves a motion free.
         """
+        if not line.plane:
+            return find_directly(line, self.listener, start)
         begin = perf_counter()
         self._tell("contact wire", 1, begin)
         names = dropper_names(line)

@@ -23,6 +23,7 @@ from catenaria.formfinding.progress import Listener, Progress
 from catenaria.formfinding.refusals import refuse_compression
 from catenaria.formfinding.rest import Rest
 from catenaria.formfinding.settling import Settled, largest_error
+from catenaria.formfinding.spatial.dynamic import find_by_motion
 from catenaria.formfinding.third_step import gather, support_names
 from catenaria.line import Line
 from catenaria.results.form import Counters, FormResult, History
@@ -67,6 +68,8 @@ class DynamicEquilibrium:
         InfeasibleError
             If the schedule cannot be built.
         """
+        if not line.plane:
+            return find_by_motion(line, self.listener, start)
         begin = perf_counter()
         contact = self._step(line, contact_wire_setup(line), 1, start, begin)
         below = _rest(contact).clamped

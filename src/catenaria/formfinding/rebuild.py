@@ -12,10 +12,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from catenaria.discretise.line_model import LineModel
-from catenaria.errors import InfeasibleError, NotConvergedError, SingularError
+from catenaria.errors import InfeasibleError, NotConvergedError, SingularError, UnsupportedError
 from catenaria.formfinding.coupled import guess_line
 from catenaria.formfinding.rebuild_allowance import Measured, allowance, measure
 from catenaria.formfinding.relaxed_rebuild import rest_by_relaxation
+from catenaria.formfinding.spatial.rebuild import rebuild_in_space
 from catenaria.formfinding.static_rebuild import rest_statically
 from catenaria.line import Line
 from catenaria.results.form import FormResult
@@ -49,6 +50,10 @@ def rebuild(line: Line, result: FormResult, way: Way = "static") -> Rebuilt:
     NotConvergedError
         If the built line does not come to rest.
     """
+    if not line.plane:
+        if way != "static":
+            raise UnsupportedError("lines in space are rebuilt by Newton's method only (--rebuild static)")
+        return rebuild_in_space(line, result)
     model, z = _built(line, result)
     try:
         if way == "relaxation":

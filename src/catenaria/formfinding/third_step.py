@@ -78,15 +78,21 @@ def dropper_schedule(line: Line, contact: Clamped, messenger: Clamped) -> Droppe
     inner_force = 0.5 * (
         force_top - kind.clamp_mass_top * line.gravity + force_bottom + kind.clamp_mass_bottom * line.gravity
     )
-    unstressed = length / stretch(inner_force, line.conductors[kind.conductor].EA)
+    unstressed = length / stretch(inner_force, line.conductor(kind.conductor).EA)
     span = np.array(line.dropper_span)
     target = np.array(line.dropper_target_height)
     return Droppers(
+        lower_wire=(contact.setup.name,) * span.size,
+        upper_wire=(messenger.setup.name,) * span.size,
         span=span + 1,
         number=np.concatenate(
             [np.arange(1, np.count_nonzero(span == i) + 1) for i in range(len(line.spans))]
         ),
         x=np.array(line.dropper_x),
+        position_bottom=contact.position,
+        position_top=messenger.position,
+        stagger_bottom=contact.position[:, 1].copy(),
+        stagger_top=messenger.position[:, 1].copy(),
         length=length,
         unstressed_length=unstressed,
         cut_length=unstressed - kind.clamp_height_top - kind.clamp_height_bottom,
@@ -106,15 +112,23 @@ def dropper_schedule(line: Line, contact: Clamped, messenger: Clamped) -> Droppe
 
 def _supports(steps: tuple[Rest, ...], names: tuple[tuple[str, ...], ...]) -> Supports:
     models = [step.model for step in steps]
+    x = np.concatenate([model.setup.support_x for model in models])
+    z = np.concatenate([np.full(model.support_s.size, model.setup.height) for model in models])
     force = np.concatenate([step.z[step.model.support_force] for step in steps])
     return Supports(
         support=tuple(name for held in names for name in held),
         wire=tuple(model.setup.name for model in models for _ in model.support_s),
-        x=np.concatenate([model.setup.support_x for model in models]),
-        z=np.concatenate([np.full(model.support_s.size, model.setup.height) for model in models]),
+        kind=("sliding",) * x.size,
+        x=x,
+        y=np.zeros_like(x),
+        z=z,
+        chainage=x,
+        stagger=np.zeros_like(x),
+        height=z,
         force_x=force[:, 0],
         force_y=force[:, 1],
         force_z=force[:, 2],
+        force_lateral=force[:, 1],
         tension=np.concatenate([support_strain_tension(step.model, step.z) for step in steps]),
         sliding_coordinate=np.concatenate([step.z[step.model.support_s] for step in steps]),
     )

@@ -6,11 +6,17 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from catenaria.line.base import Path, Problem, closest
+from catenaria.line.clamp_checks import clamp_problems
+from catenaria.line.conductors import uses
+from catenaria.line.installation_checks import installation_problems
+from catenaria.line.library import library
 from catenaria.line.plausibility import (
     implausible_conductors,
     implausible_heights,
+    implausible_sags,
     implausible_tensions,
 )
+from catenaria.line.wire_checks import wire_problems
 
 if TYPE_CHECKING:
     from catenaria.line.line import Line
@@ -28,24 +34,27 @@ def line_problems(line: Line) -> Iterator[Problem]:
     yield from _wrong_counts(line)
     yield from _loose_ends(line)
     yield from _names_given_twice(line)
+    yield from wire_problems(line)
+    yield from clamp_problems(line)
+    yield from _wrong_installation(line)
     yield from implausible_conductors(line)
     yield from implausible_tensions(line)
     yield from implausible_heights(line)
+    yield from implausible_sags(line)
+
+
+def _wrong_installation(line: Line) -> Iterator[Problem]:
+    if line.installation is not None:
+        for problem in installation_problems(line.installation, line):
+            yield Problem(("installation", *problem.path), problem.found, problem.allowed, problem.kind)
 
 
 def _unknown_conductors(line: Line) -> Iterator[Problem]:
-    references: list[tuple[Path, str]] = [
-        (("contact_wire", "conductor"), line.contact_wire.conductor),
-        (("messenger_wire", "conductor"), line.messenger_wire.conductor),
-        (("dropper", "conductor"), line.dropper.conductor),
-    ]
-    references += [
-        (("other_wires", i, "conductor"), wire.conductor) for i, wire in enumerate(line.other_wires)
-    ]
-    for path, name in references:
+    for path, name in uses(line):
         if name not in line.conductors:
-            known = ", ".join(line.conductors) or "none: conductors is empty"
-            yield Problem(path, name, f"one of the conductors: {known}{closest(name, line.conductors)}")
+            own = ", ".join([*line.conductors, "those of the library"])
+            allowed = f"one of the conductors: {own}{closest(name, [*line.conductors, *library()])}"
+            yield Problem(path, name, allowed)
 
 
 def _wrong_counts(line: Line) -> Iterator[Problem]:
@@ -58,10 +67,15 @@ def _wrong_counts(line: Line) -> Iterator[Problem]:
     if not any(span.droppers.x for span in line.spans):
         yield Problem(("spans",), line.spans, "at least one span with a dropper")
     for i, span in enumerate(line.spans):
-        yield from _wrong_heights(i, len(span.heights), len(span.droppers.x))
+        if isinstance(span.contact_wire_height, tuple):
+            path = ("spans", i, "contact_wire_height")
+            yield from _wrong_heights(path, len(span.contact_wire_height), len(span.droppers.x))
+        if span.auxiliary is not None:
+            path = ("spans", i, "auxiliary", "height")
+            yield from _wrong_heights(path, len(span.auxiliary.heights), len(span.auxiliary.droppers.x))
 
 
-def _wrong_heights(span: int, prescribed: int, released: int) -> Iterator[Problem]:
+def _wrong_heights(path: Path, prescribed: int, released: int) -> Iterator[Problem]:
     """Each prescribed height needs one dropper length that is released to fulfil it."""
     if prescribed != released:
         difference = "more" if prescribed > released else "fewer"
@@ -69,7 +83,7 @@ def _wrong_heights(span: int, prescribed: int, released: int) -> Iterator[Proble
             f"one height, or {released} of them: one for each dropper, whose length it releases; "
             f"{abs(prescribed - released)} {difference} than lengths to release"
         )
-        yield Problem(("spans", span, "contact_wire_height"), prescribed, allowed)
+        yield Problem(path, prescribed, allowed)
 
 
 def _loose_ends(line: Line) -> Iterator[Problem]:

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
+from typing import Annotated, Final
 
-from pydantic import ConfigDict, Field, model_validator
+from annotated_types import Ge, Le
+from pydantic import ConfigDict, Field, Strict, model_validator
 
 from catenaria.errors import InconsistentInputError
 from catenaria.line.base import LineModel, Problem, exactly_one, refuse
@@ -12,9 +15,12 @@ from catenaria.units import (
     BendingStiffness,
     PositiveArea,
     PositiveDensity,
+    PositiveLength,
     PositiveMassPerLength,
     PositivePressure,
 )
+
+_STRANDED: Final = 1.15  # outer diameter of a strand by that of a solid wire of the same area
 
 
 class Conductor(LineModel):
@@ -42,6 +48,30 @@ class Conductor(LineModel):
     bending_stiffness: BendingStiffness = Field(
         description="Bending stiffness EJ; 0 for a perfectly flexible cable."
     )
+    thermal_expansion: Annotated[float, Strict(), Ge(0.0), Le(1e-4)] = Field(
+        default=17e-6, description="Coefficient of linear thermal expansion in 1/K, for load cases."
+    )
+    diameter: PositiveLength | None = Field(
+        default=None,
+        description=(
+            "Outer diameter, for wind and ice; if left out, 1.15 times that of a solid round wire of the "
+            "same area."
+        ),
+    )
+
+    @property
+    def outer_diameter(self) -> float:
+        """Outer diameter [m], see `diameter`.
+
+        Notes
+        -----
+        A strand of 7, 19 or 37 wires is 3, 5 or 7 of them wide, which is 1.134, 1.147 and 1.151 times the
+        diameter of a solid wire of the same metal section; contact wires with their grooves are 1.05 to 1.07
+        times as wide.
+        """
+        if self.diameter is not None:
+            return self.diameter
+        return _STRANDED * math.sqrt(4.0 * self.area / math.pi)
 
     @property
     def EA(self) -> float:  # noqa: N802 (the field's symbol)

@@ -16,7 +16,21 @@ from catenaria.units import Length, NonNegativeLength, NonNegativeMass, Positive
 class DropperKind(LineModel):
     """What every dropper of the line is made of, and how it is modelled."""
 
-    conductor: str = Field(description="Name of one of the conductors.")
+    conductor: str = Field(description="Name of one of the conductors, or of one of the library.")
+    model: Literal["cables", "bar", "rigid"] = Field(
+        default="cables",
+        description=(
+            "cables: two cables that meet, as in Yang et al. 2017; in a line beyond the plane they are taken "
+            "as the straight bar that they make. bar: one elastic bar. rigid: a bar that does not stretch."
+        ),
+    )
+    slack: Literal["refused", "allowed"] = Field(
+        default="refused",
+        description=(
+            "What becomes of a dropper that would have to push the contact wire down to its wanted height. "
+            "refused: the line is refused, with advice. allowed: it is slack, and the wire is higher there."
+        ),
+    )
     guessed_length: PositiveLength = Field(
         default=1.5,
         description=(

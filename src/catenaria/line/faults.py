@@ -3,13 +3,27 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any, cast
+from typing import Any, Final, cast
 
 from pydantic_core import ErrorDetails
 
 from catenaria.errors import Fault
 from catenaria.line.base import Path, closest
 from catenaria.line.source import Source, format_path
+
+_PLAIN: Final = {
+    "string_type": "a text; put quotes around a number that is one",
+    "bool_type": "true or false",
+    "int_type": "a whole number",
+    "float_type": "a finite number",
+    "float_parsing": "a finite number",
+    "finite_number": "a finite number",
+    "greater_than": "more than {gt:g}",
+    "greater_than_equal": "{ge:g} or more",
+    "less_than_equal": "{le:g} or less",
+    "tuple_type": "a list",
+    "dict_type": "a mapping",
+}
 
 
 def faults_of(problems: Mapping[Path, ErrorDetails], tree: object, source: Source) -> tuple[Fault, ...]:
@@ -82,26 +96,10 @@ def _describe(value: object) -> str:
 
 def _allowed(problem: ErrorDetails) -> str:
     """Translate pydantic's errors; those of the models already say what is allowed."""
-    context = problem.get("ctx", {})
-    match problem["type"]:
-        case "quantity" | "missing" | "value" | "unknown field":
-            return str(context["allowed"])
-        case "literal_error":
-            names = str(context["expected"]).replace("'", "").replace(" or ", ", ").split(", ")
-            return " or ".join(names) + closest(str(problem["input"]), names)
-        case "string_type":
-            return "a text; put quotes around a number that is one"
-        case "int_type":
-            return "a whole number"
-        case "float_type" | "float_parsing" | "finite_number":
-            return "a finite number"
-        case "greater_than_equal":
-            return f"{context['ge']:g} or more"
-        case "less_than_equal":
-            return f"{context['le']:g} or less"
-        case "tuple_type":
-            return "a list"
-        case "dict_type":
-            return "a mapping"
-        case _:
-            return problem["msg"]
+    context, kind = problem.get("ctx", {}), problem["type"]
+    if kind in ("quantity", "missing", "value", "unknown field"):
+        return str(context["allowed"])
+    if kind == "literal_error":
+        names = str(context["expected"]).replace("'", "").replace(" or ", ", ").split(", ")
+        return " or ".join(names) + closest(str(problem["input"]), names)
+    return _PLAIN[kind].format(**context) if kind in _PLAIN else problem["msg"]

@@ -2,23 +2,32 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from itertools import accumulate, count
 from typing import Any, Literal
 
 from pydantic import Field, PrivateAttr, field_validator, model_validator
 from pydantic_core import PydanticCustomError
 
+from catenaria.line.alignment import Alignment
 from catenaria.line.base import LineModel, refuse
 from catenaria.line.checks import line_problems
 from catenaria.line.conductor import Conductor
+from catenaria.line.conductors import from_library
 from catenaria.line.dropper import DropperKind
+from catenaria.line.installation import Installation
+from catenaria.line.library import conductor_named
+from catenaria.line.plane import beyond_plane
+from catenaria.line.point_mass import PointMass
+from catenaria.line.profile import between, held_heights, wanted_heights
 from catenaria.line.solver import Solver
 from catenaria.line.source import Source
 from catenaria.line.span import Span
 from catenaria.line.support import Support
+from catenaria.line.tied_wire import MidPoint, StitchWire
 from catenaria.line.track import Track
-from catenaria.line.wire import OtherWire, Wire
-from catenaria.units import Length, PositiveAcceleration
+from catenaria.line.wire import SecondContactWire, Wire
+from catenaria.units import CelsiusTemperature, Length, PositiveAcceleration
 
 
 class Line(LineModel):
@@ -31,29 +40,49 @@ class Line(LineModel):
     name: str = Field(default="", description="A short name, for tables and figures.")
     description: str = Field(default="", description="Whatever a reader should know.")
     gravity: PositiveAcceleration = Field(default=9.80665, description="Acceleration of gravity.")
+    reference_temperature: CelsiusTemperature = Field(
+        default=15.0, description="Temperature at which the line has the wanted heights, for load cases."
+    )
     conductors: dict[str, Conductor] = Field(
-        description="Conductors by name; wires and droppers refer to the names."
+        default_factory=dict[str, Conductor],
+        description=(
+            "Conductors by name; wires and droppers refer to the names. Those of the library need not be "
+            "listed."
+        ),
     )
     contact_wire: Wire = Field(description="The wire that the pantograph touches.")
+    second_contact_wire: SecondContactWire | None = Field(
+        default=None, description="A second contact wire beside the first, if there is one."
+    )
     messenger_wire: Wire = Field(description="The wire that carries the contact wire through the droppers.")
+    auxiliary_messenger: Wire | None = Field(
+        default=None,
+        description="The wire between messenger and contact wire, in a compound catenary.",
+    )
+    stitch_wire: StitchWire | None = Field(default=None, description="Stitch wires, if the line has them.")
+    mid_point: MidPoint | None = Field(default=None, description="A mid-point anchor, if the line has one.")
+    point_masses: tuple[PointMass, ...] = Field(
+        default=(), description="Insulators, clamps and other masses on the wires."
+    )
     dropper: DropperKind = Field(description="What all droppers are made of.")
     start_chainage: Length = Field(
         default=0.0, ge=-1e6, le=1e6, description="Chainage (x) of the first support, within 1,000 km."
     )
     supports: tuple[Support, ...] = Field(description="Supports in order of chainage: one more than spans.")
     spans: tuple[Span, ...] = Field(description="Spans in order of chainage.")
-    track: Track = Field(default=Track(), description="Course of the track; straight and level if left out.")
-    other_wires: tuple[OtherWire, ...] = Field(
-        default=(), description="Stitch wires, auxiliary messengers, second wires. Not solved yet."
+    installation: Installation | None = Field(
+        default=None, description="Errors with which the line is built, for tolerance studies."
     )
+    track: Track = Field(default=Track(), description="Course of the track; straight and level if left out.")
     solver: Solver = Field(default=Solver(), description="Mesh, and options of the methods.")
 
     _source: Source = PrivateAttr(default_factory=Source)
 
     def model_post_init(self, context: Any, /) -> None:
-        """Keep the places in the file, which the reader hands over as context of the validation."""
+        """Keep the places in the file, which the reader hands over, and the conductors of the library."""
         if isinstance(context, Source):
             self._source = context
+        self.conductors.update(from_library(self))
 
     @field_validator("format", mode="before")
     @classmethod
@@ -86,6 +115,32 @@ class Line(LineModel):
         return self._source
 
     @property
+    def plane(self) -> bool:
+        """Whether the line lies in a plane and has two wires that run freely through level supports."""
+        return not any(beyond_plane(self))
+
+    @property
+    def alignment(self) -> Alignment:
+        """The course of the track in space."""
+        track: Any = self.track  # hashable, for it is frozen, which type checkers do not see
+        return _alignment(track, self.start_chainage)
+
+    def conductor(self, name: str) -> Conductor:
+        """Return a conductor of the line or, if it has none of this name, of the library.
+
+        Parameters
+        ----------
+        name : str
+            Its name.
+
+        Raises
+        ------
+        InconsistentInputError
+            If there is none of this name.
+        """
+        return self.conductors[name] if name in self.conductors else conductor_named(name)
+
+    @property
     def length(self) -> float:
         """Distance from the first to the last support [m]."""
         return self.support_x[-1] - self.support_x[0]
@@ -112,9 +167,32 @@ class Line(LineModel):
     @property
     def dropper_target_height(self) -> tuple[float, ...]:
         """Wanted height of the contact wire at every dropper [m]."""
-        return tuple(height for span in self.spans for height in span.heights)
+        return tuple(height for heights in wanted_heights(self) for height in heights)
 
     @property
     def contact_support_indices(self) -> tuple[int, ...]:
         """Indices of the supports that hold the contact wire."""
         return tuple(i for i, support in enumerate(self.supports) if support.contact_wire is not None)
+
+    @property
+    def contact_heights(self) -> tuple[float, ...]:
+        """Height of the contact wire at every support; between those that hold it on a straight line [m]."""
+        held = held_heights(self)
+        return tuple(between(held, x) for x in self.support_x)
+
+    @property
+    def stitched_supports(self) -> tuple[int, ...]:
+        """Indices of the supports that have a stitch wire."""
+        if self.stitch_wire is None:
+            return ()
+        inner = range(1, len(self.supports) - 1)
+        return tuple(
+            i
+            for i, support in enumerate(self.supports)
+            if (i in inner if support.stitch_wire is None else support.stitch_wire)
+        )
+
+
+@lru_cache(maxsize=64)
+def _alignment(track: Track, start_chainage: float) -> Alignment:
+    return Alignment.of(track, start_chainage)

@@ -13,13 +13,18 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, Final
 
 from catenaria.line.base import Path, Problem
+from catenaria.line.profile import between, held_heights, wanted_heights
 
 if TYPE_CHECKING:
     from catenaria.line.conductor import Conductor
     from catenaria.line.line import Line
+    from catenaria.line.span import Span
+    from catenaria.line.tied_wire import MidPoint, StitchWire
+    from catenaria.line.wire import Wire
 
 _ROOM: Final = 0.2  # m from a wanted height up to the line between the messenger's supports
 _FARTHEST: Final = 0.5  # m from the line between the contact wire's supports to a wanted height
+_LIFTED: Final = 1.5  # m between the heights of the contact wire at neighbouring supports that hold it
 _ROUNDING: Final = 1e-9  # m
 _STRAIN: Final = (1e-5, 0.02)  # T/EA; about 1e-3 in wires that are built
 
@@ -52,45 +57,104 @@ _MASS: Final = _Range(0.005, 50.0, "kg/m", (("kg/km", 1e-3),))
 
 
 def implausible_conductors(line: Line) -> Iterator[Problem]:
-    """Find conductors of a size, stiffness or weight that no wire has."""
-    for name, conductor in line.conductors.items():
+    """Find conductors and cantilevers of a size, stiffness or weight that nothing of the kind has."""
+    found: list[tuple[Path, Conductor]] = [(("conductors", n), c) for n, c in line.conductors.items()]
+    for i, support in enumerate(line.supports):
+        if support.messenger_wire.cantilever is not None:
+            path = ("supports", i, "messenger_wire", "cantilever")
+            found.append((path, support.messenger_wire.cantilever))
+    for path, conductor in found:
         for field, value, plausible in _quantities(conductor):
             if not plausible.holds(value):
-                yield Problem(("conductors", name, field), value, plausible.allowed(value))
+                yield Problem((*path, field), value, plausible.allowed(value))
 
 
 def implausible_tensions(line: Line) -> Iterator[Problem]:
     """Find tensions that would stretch a wire far more, or far less, than any wire is stretched."""
-    for field, wire in (("contact_wire", line.contact_wire), ("messenger_wire", line.messenger_wire)):
-        conductor = line.conductors.get(wire.conductor)
+    for path, name, tension in _tensions(line):
+        conductor = line.conductors.get(name)
         if conductor is None or not all(r.holds(value) for _, value, r in _quantities(conductor)):
             continue  # the conductor is at fault
         low, high = (strain * conductor.EA for strain in _STRAIN)
         force = _Range(float(f"{low:.2g}"), float(f"{high:.2g}"), "N", (("kN", 1e3),))
-        if not force.holds(wire.tension.force):
-            why = f"{force.allowed(wire.tension.force)} (EA is {conductor.EA / 1e6:.4g} MN)"
-            yield Problem((field, "tension", "force"), wire.tension.force, why)
+        if not force.holds(tension):
+            why = f"{force.allowed(tension)} (EA is {conductor.EA / 1e6:.4g} MN)"
+            yield Problem(path, tension, why)
+
+
+def _tensions(line: Line) -> Iterator[tuple[Path, str, float]]:
+    """Yield where the tension of every wire stands, the name of its conductor, and the tension."""
+    for field in ("contact_wire", "messenger_wire", "auxiliary_messenger"):
+        wire: Wire | None = getattr(line, field)
+        if wire is not None:
+            yield (field, "tension", "force"), wire.conductor, wire.tension.force
+    for field in ("stitch_wire", "mid_point"):
+        tied: StitchWire | MidPoint | None = getattr(line, field)
+        if tied is not None:
+            yield (field, "tension"), tied.conductor, tied.tension
 
 
 def implausible_heights(line: Line) -> Iterator[Problem]:
     """Find wanted heights far from where the contact wire is held, or near the messenger's supports."""
-    supports = list(enumerate(zip(line.support_x, line.supports, strict=False)))
-    held = [(x, support.contact_wire.height) for _, (x, support) in supports if support.contact_wire]
-    low = dict(_low_supports(line, [_between(held, x) for x in line.support_x]))
+    held, wanted = held_heights(line), wanted_heights(line)
+    yield from _lifted(line, held)
+    low = dict(_low_supports(line, wanted))
     for i, least in low.items():
         allowed = f"{least:g} m or more, {_ROOM:g} m above the wanted height of the contact wire beside it"
         path: Path = ("supports", i, "messenger_wire", "height")
         yield Problem(path, line.supports[i].messenger_height, allowed)
-    hung = [(x, math.nan if i in low else support.messenger_height) for i, (x, support) in supports]
+    places = enumerate(zip(line.support_x, line.supports, strict=False))
+    hung = [(x, math.nan if i in low else support.messenger_height) for i, (x, support) in places]
     for i, (start, span) in enumerate(zip(line.support_x, line.spans, strict=False)):
-        listed = isinstance(span.contact_wire_height, tuple)
         found: dict[Path, Problem] = {}  # a height that is given once for all droppers is one problem
-        for j, (x, height) in enumerate(zip(span.droppers.x, span.heights, strict=False)):
-            allowed = _allowed_height(height, _between(held, start + x), _between(hung, start + x))
-            path = ("spans", i, "contact_wire_height", *((j,) if listed else ()))
+        for j, (x, height) in enumerate(zip(span.droppers.x, wanted[i], strict=False)):
+            allowed = _allowed_height(height, between(held, start + x), between(hung, start + x))
+            path = ("spans", i, *_field(span, j))
             if allowed:
                 found.setdefault(path, Problem(path, height, allowed))
         yield from found.values()
+
+
+def _field(span: Span, dropper: int) -> Path:
+    """Return the field that says how high the contact wire is wanted at a dropper."""
+    if isinstance(span.contact_wire_height, tuple):
+        return ("contact_wire_height", dropper)
+    if span.contact_wire_height is None and span.sag != 0.0:
+        return ("pre_sag",) if span.pre_sag_per_mille is None else ("pre_sag_per_mille",)
+    return ("contact_wire_height",)
+
+
+def implausible_sags(line: Line) -> Iterator[Problem]:
+    """Find pre-sags that are deeper than the contact wire hangs by itself, so that droppers would push it.
+
+    Notes
+    -----
+    Between droppers a part of the wire's weight w per length is carried by its tension T: 8 D T/L^2 under a
+    parabola of depth D over the length L. The droppers carry the rest.
+    """
+    conductor = line.conductors.get(line.contact_wire.conductor)
+    if conductor is None:
+        return
+    weight = line.gravity * conductor.rhoA * (1.0 - line.contact_wire.wear)
+    for i, span in enumerate(line.spans):
+        if span.sag > 0.0 and len(span.droppers.x) > 1:
+            length = span.droppers.x[-1] - span.droppers.x[0]
+            most = weight * length**2 / (8.0 * line.contact_wire.tension.on_wire)
+            if span.sag > most:
+                field, depth = "pre_sag", f"{most * 1e3:.3g} mm"
+                if span.pre_sag_per_mille is not None:
+                    field, depth = "pre_sag_per_mille", f"{most / span.length * 1e3:.3g} per mille"
+                allowed = f"a pre-sag of at most {depth}: a deeper one needs droppers that push"
+                yield Problem(("spans", i, field), span.sag, allowed)
+
+
+def _lifted(line: Line, held: Sequence[tuple[float, float]]) -> Iterator[Problem]:
+    """Find supports that hold the contact wire much higher or lower than the one before."""
+    indices = line.contact_support_indices
+    for i, ((_, before), (_, height)) in zip(indices[1:], pairwise(held), strict=False):
+        if abs(height - before) > _LIFTED + _ROUNDING:
+            allowed = f"within {_LIFTED:g} m of {before:g} m, the height where it is held before"
+            yield Problem(("supports", i, "contact_wire", "height"), height, allowed)
 
 
 def _allowed_height(height: float, level: float, ceiling: float) -> str:
@@ -102,26 +166,18 @@ def _allowed_height(height: float, level: float, ceiling: float) -> str:
     return ""
 
 
-def _low_supports(line: Line, levels: Sequence[float]) -> Iterator[tuple[int, float]]:
+def _low_supports(line: Line, wanted: Sequence[tuple[float, ...]]) -> Iterator[tuple[int, float]]:
     """Find messenger supports that are too low where the contact wire passes freely, and the least height.
 
     A wanted height that is itself far from the level of the contact wire says nothing about a support.
     """
-    for i, (support, level) in enumerate(zip(line.supports, levels, strict=False)):
-        left = line.spans[i - 1].heights[-1:] if 0 < i <= len(line.spans) else ()
-        right = line.spans[i].heights[:1] if i < len(line.spans) else ()
+    for i, (support, level) in enumerate(zip(line.supports, line.contact_heights, strict=False)):
+        left = wanted[i - 1][-1:] if 0 < i <= len(wanted) else ()
+        right = wanted[i][:1] if i < len(wanted) else ()
         near = [height for height in left + right if not abs(height - level) > _FARTHEST + _ROUNDING]
         least = max(near, default=-math.inf) + _ROOM
         if support.contact_wire is None and support.messenger_height < least - _ROUNDING:
             yield i, least
-
-
-def _between(points: Sequence[tuple[float, float]], x: float) -> float:
-    """Interpolate; NaN, which compares with nothing, where a neighbour is missing or unknown."""
-    for (x0, z0), (x1, z1) in pairwise(points):
-        if x0 <= x <= x1:
-            return z0 + (z1 - z0) * (x - x0) / (x1 - x0)
-    return math.nan
 
 
 def _quantities(conductor: Conductor) -> Iterator[tuple[str, float, _Range]]:

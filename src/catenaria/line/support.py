@@ -1,77 +1,22 @@
-"""Supports and how they hold the wires."""
+"""Supports: places where wires are held."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
-from typing import Literal
+from typing import Annotated, Final
 
-from pydantic import ConfigDict, Field, model_validator
+from pydantic import Field, Strict, model_validator
 
 from catenaria.errors import InconsistentInputError
-from catenaria.line.base import LineModel, Problem, exactly_one, refuse
-from catenaria.units import Length, NonNegativeMass, PositiveLength, PositiveStiffness
+from catenaria.line.base import LineModel, Problem, refuse
+from catenaria.line.contact_support import ContactSupport
+from catenaria.line.messenger_support import AuxiliarySupport, MessengerSupport
+from catenaria.line.steady_arm import arm_problems
+from catenaria.units import Length
 
-
-class SteadyArm(LineModel):
-    """A registration arm that holds the contact wire sideways. It can be described; it is not solved yet."""
-
-    length: PositiveLength = Field(description="From the hinge to the contact-wire clamp.")
-    mass: NonNegativeMass = Field(default=0.0, description="Mass of the arm with its clamp.")
-    registration: Literal["pull-off", "push-off"] = Field(
-        default="pull-off", description="Whether the arm pulls the wire towards the mast or pushes it away."
-    )
-
-
-class ContactSupport(LineModel):
-    """How a support holds the contact wire."""
-
-    height: Length = Field(description="Height at which the contact wire is held.")
-    kind: Literal["sliding", "steady arm"] = Field(
-        default="sliding",
-        description="sliding: the wire runs through a fixed point, frictionless. steady arm: not solved yet.",
-    )
-    arm: SteadyArm | None = Field(default=None, description="The steady arm, if that is what holds the wire.")
-
-    @model_validator(mode="after")
-    def _arm_where_there_is_one(self) -> ContactSupport:
-        if self.kind == "sliding" and self.arm is not None:
-            refuse("ContactSupport", [Problem(("arm",), self.arm, "an arm only where kind is steady arm")])
-        return self
-
-
-class MessengerSupport(LineModel):
-    """How a support holds the messenger wire."""
-
-    model_config = ConfigDict(json_schema_extra=exactly_one("height", "encumbrance"))
-
-    height: Length | None = Field(
-        default=None, description="Height at which the messenger wire is held. Give this or encumbrance."
-    )
-    encumbrance: PositiveLength | None = Field(
-        default=None, description="Height above the contact wire of the same support. Give this or height."
-    )
-    kind: Literal["sliding", "clamped", "spring", "cantilever"] = Field(
-        default="sliding",
-        description="sliding: the wire runs over a fixed point, frictionless. The others are not solved yet.",
-    )
-    stiffness: PositiveStiffness | None = Field(
-        default=None, description="Vertical stiffness of a spring or cantilever."
-    )
-
-    @model_validator(mode="after")
-    def _one_height(self) -> MessengerSupport:
-        refuse("MessengerSupport", self._problems())
-        return self
-
-    def _problems(self) -> Iterator[Problem]:
-        if self.height is None and self.encumbrance is None:
-            yield Problem(("height",), None, "a value: one of height and encumbrance is needed", "missing")
-        if self.height is not None and self.encumbrance is not None:
-            yield Problem(("encumbrance",), self.encumbrance, "this or height, not both")
-        if self.stiffness is not None and self.kind not in ("spring", "cantilever"):
-            yield Problem(
-                ("stiffness",), self.stiffness, "a stiffness only where kind is spring or cantilever"
-            )
+_STAGGER: Final = 1.0  # m
+_MESSENGER_STAGGER: Final = 1.5  # m
 
 
 class Support(LineModel):
@@ -94,9 +39,23 @@ class Support(LineModel):
         description="How the contact wire is held; left out where it hangs freely past the support.",
     )
     messenger_wire: MessengerSupport = Field(description="How the messenger wire is held.")
+    auxiliary_messenger: AuxiliarySupport | None = Field(
+        default=None, description="How the auxiliary messenger is held, in a line that has one."
+    )
     stagger: Length = Field(
         default=0.0,
-        description="Sideways offset of the contact wire, positive to the left. Only 0 is solved yet.",
+        description="Sideways offset of the contact wire from the track axis, positive to the left.",
+    )
+    messenger_stagger: Length | None = Field(
+        default=None,
+        description="Sideways offset of the messenger wires, positive to the left; the stagger if left out.",
+    )
+    stitch_wire: Annotated[bool, Strict()] | None = Field(
+        default=None,
+        description=(
+            "Whether there is a stitch wire, in a line that has them; if left out, at all supports but the "
+            "first and the last one."
+        ),
     )
 
     @property
@@ -111,16 +70,37 @@ class Support(LineModel):
             )
         return contact.height + messenger.encumbrance
 
+    @property
+    def messenger_offset(self) -> float:
+        """Sideways offset of the messenger wires, positive to the left [m]."""
+        return self.stagger if self.messenger_stagger is None else self.messenger_stagger
+
     @model_validator(mode="after")
-    def _messenger_above_contact_wire(self) -> Support:
+    def _consistent(self) -> Support:
         refuse("Support", self._problems())
         return self
 
     def _problems(self) -> Iterator[Problem]:
-        messenger, contact = self.messenger_wire, self.contact_wire
+        yield from self._height_problems()
+        for field, most in (("stagger", _STAGGER), ("messenger_stagger", _MESSENGER_STAGGER)):
+            value: float | None = getattr(self, field)
+            if value is not None and abs(value) > most:
+                yield Problem((field,), value, f"within {most:g} m, as -200 mm")
+        if self.contact_wire is not None and self.contact_wire.arm is not None:
+            for problem in arm_problems(self.contact_wire.arm, self.stagger, self.contact_wire.height):
+                path = ("contact_wire", "arm", *problem.path)
+                yield Problem(path, problem.found, problem.allowed, problem.kind)
+
+    def _height_problems(self) -> Iterator[Problem]:
+        messenger, contact, auxiliary = self.messenger_wire, self.contact_wire, self.auxiliary_messenger
         if messenger.encumbrance is not None and contact is None:
             allowed = "a height instead: the contact wire is not held at this support"
             yield Problem(("messenger_wire", "encumbrance"), messenger.encumbrance, allowed)
         elif contact is not None and self.messenger_height <= contact.height:
             allowed = f"more than {contact.height:g} m, the height of the contact wire at this support"
             yield Problem(("messenger_wire", "height"), messenger.height, allowed)
+        elif auxiliary is not None:
+            low = -math.inf if contact is None else contact.height
+            if auxiliary.height <= low or auxiliary.height >= self.messenger_height:
+                allowed = f"between contact wire and messenger wire, {low:g} to {self.messenger_height:g} m"
+                yield Problem(("auxiliary_messenger", "height"), auxiliary.height, allowed)

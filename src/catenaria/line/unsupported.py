@@ -1,20 +1,18 @@
-"""Refusal by name of what can be described but is not solved yet."""
+"""Refusal by name of what can be described but a method, or every method, cannot solve."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 
 from catenaria.errors import UnsupportedError
 from catenaria.line.base import Path
 from catenaria.line.line import Line
-from catenaria.line.source import UNKNOWN_MARK, format_path
-from catenaria.line.support import Support
-
-_SAME_HEIGHT = 1e-9  # m: rounding of a height and an encumbrance that are added
+from catenaria.line.plane import beyond_plane
+from catenaria.line.source import format_path
 
 
 def refuse_unsupported(line: Line) -> None:
-    """Refuse a line that asks for something that no method solves yet.
+    """Refuse a line that asks for something that no method can do.
 
     Parameters
     ----------
@@ -26,62 +24,50 @@ def refuse_unsupported(line: Line) -> None:
     UnsupportedError
         With one line of text for each such thing: file, line, column, field and what is solved instead.
     """
-    complaints: dict[object, str] = {}
-    for path, what in sorted(_unsupported(line), key=lambda item: line.source.mark(item[0])):
-        mark = line.source.mark(path)
-        # What a YAML alias repeats stands at one place and is one complaint.
-        place = (mark, path[-1]) if mark != UNKNOWN_MARK else path
-        complaints.setdefault((place, what), _complaint(line, path, what))
-    if complaints:
-        raise UnsupportedError("\n".join(complaints.values()))
+    _refuse(line, _unsolved(line), lambda what: f"{what} is not solved")
 
 
-def _complaint(line: Line, path: Path, what: str) -> str:
-    source = line.source
-    row, column = source.mark(path)
-    where = f"{source.file}:{row}:{column}: " if row else ""
-    return f"{where}{format_path(path)}: {what} is not solved yet"
+def refuse_for_method(line: Line, method: str, spatial: bool) -> None:
+    """Refuse a line that asks for something that a method cannot do.
+
+    Parameters
+    ----------
+    line : Line
+        The line.
+    method : str
+        Its name.
+    spatial : bool
+        Whether it solves lines in space, and not only plane ones of two wires.
+
+    Raises
+    ------
+    UnsupportedError
+        With one line of text for each such thing: file, line, column, field and which methods can do it.
+    """
+    refuse_unsupported(line)
+    if not spatial:
+        others = f"is not solved by the method {method!r}: only direct and dynamic solve it"
+        _refuse(line, beyond_plane(line), lambda what: f"{what} {others}")
 
 
-def _unsupported(line: Line) -> Iterator[tuple[Path, str]]:
-    yield from _wires(line)
-    for i, support in enumerate(line.supports):
-        for field, what in _support(support):
-            yield ("supports", i, *field), what
-    yield from _heights(line)
-    for i, span in enumerate(line.spans):
-        if span.pre_sag != 0.0:
-            yield ("spans", i, "pre_sag"), "a pre-sag other than 0 (a list of heights is)"
-    if line.track.curves:
-        yield ("track", "curves"), "a curved track"
-    if line.track.gradients:
-        yield ("track", "gradients"), "a track with gradients"
+def _unsolved(line: Line) -> Iterator[tuple[Path, str]]:
+    if line.dropper.joint == "frictionless" and not line.plane:
+        yield ("dropper", "joint"), "a frictionless dropper (guided ones are) in a line beyond the plane"
 
 
-def _wires(line: Line) -> Iterator[tuple[Path, str]]:
-    for field, wire in (("contact_wire", line.contact_wire), ("messenger_wire", line.messenger_wire)):
-        if wire.tension.pulled != "both":
-            yield (field, "tension", "pulled"), f"a wire that is pulled at its {wire.tension.pulled} only"
-    for i, wire in enumerate(line.other_wires):
-        yield ("other_wires", i), f"a {wire.kind} wire besides contact and messenger wire"
+def _refuse(line: Line, found: Iterable[tuple[Path, str]], complaint: Callable[[str], str]) -> None:
+    """Complain about each kind of thing once, at its first place in the file."""
+    places: dict[str, list[Path]] = {}
+    for path, what in sorted(found, key=lambda item: line.source.mark(item[0])):
+        places.setdefault(what, []).append(path)
+    if places:
+        complaints = [f"{_where(line, paths)}: {complaint(what)}" for what, paths in places.items()]
+        raise UnsupportedError("\n".join(complaints))
 
 
-def _heights(line: Line) -> Iterator[tuple[Path, str]]:
-    """Yield supports that do not hold a wire as high as its first one: wires are laid out level."""
-    contact, first = line.contact_support_indices[0], line.supports[0]
-    level = line.supports[contact].contact_wire
-    for i, support in enumerate(line.supports):
-        held = support.contact_wire
-        if held and level and abs(held.height - level.height) > _SAME_HEIGHT:
-            yield ("supports", i, "contact_wire", "height"), "a contact wire held at different heights"
-        if abs(support.messenger_height - first.messenger_height) > _SAME_HEIGHT:
-            yield ("supports", i, "messenger_wire"), "a messenger wire held at different heights"
-
-
-def _support(support: Support) -> Iterator[tuple[Path, str]]:
-    if support.contact_wire is not None and support.contact_wire.kind != "sliding":
-        yield ("contact_wire", "kind"), f"a {support.contact_wire.kind}"
-    if support.messenger_wire.kind != "sliding":
-        yield ("messenger_wire", "kind"), f"a {support.messenger_wire.kind} messenger support"
-    if support.stagger != 0.0:
-        yield ("stagger",), "a stagger other than 0"
+def _where(line: Line, paths: list[Path]) -> str:
+    """Say where the first one stands, and how many more there are."""
+    row, column = line.source.mark(paths[0])
+    where = f"{line.source.file}:{row}:{column}: " if row else ""
+    more = f" (and {len(paths) - 1} more)" if len(paths) > 1 else ""
+    return f"{where}{format_path(paths[0])}{more}"

@@ -1,34 +1,35 @@
-"""Wires that run along the line and how they are tensioned."""
+"""Wires that run along the whole line."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Literal, cast
+from typing import Annotated, Literal, cast
 
-from pydantic import Field, field_validator
+from annotated_types import Ge, Le
+from pydantic import Field, Strict, field_validator
 from pydantic_core import PydanticCustomError
 
 from catenaria.line.base import LineModel
-from catenaria.units import Length, PositiveForce, PositiveLength
+from catenaria.line.tension import Tension
+from catenaria.units import Length, PositiveLength
 
 
-class Tension(LineModel):
-    """The prescribed tension of a wire and where it is measured."""
+class Anchor(LineModel):
+    """Where the end of a wire is anchored or tensioned, beyond the first or last support."""
 
-    force: PositiveForce = Field(description="The wanted tension.")
-    measure: Literal["reaction", "strain"] = Field(
-        default="reaction",
+    distance: PositiveLength | None = Field(
+        default=None,
+        description="Distance from the first or last support, straight on; the wire's tail if left out.",
+    )
+    height: Length | None = Field(
+        default=None, description="Height of the wire's end; as at the first or last support if left out."
+    )
+    stagger: Length | None = Field(
+        default=None,
         description=(
-            "reaction: the force with which the tensioning device at the wire's end reacts; right on any "
-            "mesh. strain: the axial force (11) of Yang et al. 2017 at the end support; depends on the mesh."
+            "Sideways offset of the wire's end, positive to the left; as at the first or last support if "
+            "left out."
         ),
-    )
-    at: Literal["start", "end"] = Field(
-        default="end", description="The end of the wire at which it is measured."
-    )
-    pulled: Literal["both", "start", "end"] = Field(
-        default="both",
-        description="Which ends are pulled; the other is fixed. Only both is solved yet.",
     )
 
 
@@ -41,10 +42,23 @@ def _excess(tensions: Sequence[object]) -> str:
 class Wire(LineModel):
     """A wire along the whole line."""
 
-    conductor: str = Field(description="Name of one of the conductors.")
+    conductor: str = Field(description="Name of one of the conductors, or of one of the library.")
     tension: Tension = Field(description="The one tension that is prescribed for this wire.")
     tail: PositiveLength = Field(
         default=0.5, description="How far the wire runs on beyond its first and its last support."
+    )
+    anchor_start: Anchor | None = Field(
+        default=None, description="Where the wire begins, if not level and straight beyond its first support."
+    )
+    anchor_end: Anchor | None = Field(
+        default=None, description="Where the wire ends, if not level and straight beyond its last support."
+    )
+    wear: Annotated[float, Strict(), Ge(0.0), Le(0.5)] = Field(
+        default=0.0,
+        description=(
+            "Share of the section that is worn off, 0 to 0.5. Area and mass fall with what is left, the "
+            "bending stiffness with its square."
+        ),
     )
 
     @field_validator("tension", mode="before")
@@ -57,14 +71,20 @@ class Wire(LineModel):
         return value
 
 
-class OtherWire(LineModel):
-    """A wire besides contact and messenger wire. It can be described; it is not solved yet."""
+class SecondContactWire(LineModel):
+    """A second contact wire beside the first: same conductor, tension, wear and anchors."""
 
-    name: str = Field(description="What the wire is called in the results.")
-    kind: Literal["stitch", "auxiliary messenger", "contact", "messenger", "Z"] = Field(
-        description="What the wire is for."
+    spacing: PositiveLength = Field(
+        default=0.04,
+        description=(
+            "Distance of the two wires, below 0.5 m. The stagger is that of the middle between them; the "
+            "first wire is the left one."
+        ),
     )
-    conductor: str = Field(description="Name of one of the conductors.")
-    start: Length = Field(description="Chainage at which the wire begins.")
-    end: Length = Field(description="Chainage at which the wire ends.")
-    tension: Tension | None = Field(default=None, description="The prescribed tension; a Z wire has none.")
+    droppers: Literal["alternate", "both"] = Field(
+        default="alternate",
+        description=(
+            "alternate: in every span, odd droppers hold the first wire and even ones the second. both: two "
+            "droppers at every place, one for each wire."
+        ),
+    )

@@ -93,11 +93,14 @@ class UnknownsBuilder:
         """Add r and r' of one node, shape (3,) each, and return their six indices."""
         return self.add_nodes(np.asarray(position)[None, :], np.asarray(slope)[None, :])[0]
 
-    def add_nodes(self, position: FloatArray, slope: FloatArray) -> IntArray:
-        """Add r and r' of nodes, shape (n, 3) each, and return their indices, shape (n, 6)."""
+    def add_nodes(self, position: FloatArray, slope: FloatArray, at: FloatArray | None = None) -> IntArray:
+        """Add r and r' of nodes, shape (n, 3) each, and return their indices, shape (n, 6).
+
+        They belong where they are along the x-axis, unless `at`, shape (n,), says where along the line.
+        """
         kinds = np.full((position.shape[0], 6), int(Kind.POSITION), dtype=np.int64)
         kinds[:, 3:] = int(Kind.SLOPE)
-        return self._append(kinds, np.hstack((position, slope)), position[:, 0])
+        return self._append(kinds, np.hstack((position, slope)), position[:, 0] if at is None else at)
 
     def _append(self, kinds: IntArray, values: FloatArray, at: FloatArray | float) -> IntArray:
         first, self._size = self._size, self._size + values.size

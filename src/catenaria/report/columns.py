@@ -30,6 +30,13 @@ def dropper_columns(result: FormResult) -> Columns:
         "height_error_m": droppers.height_error,
         "messenger_height_m": droppers.messenger_height,
         "force_error_N": droppers.force_error,
+        "chainage_m": droppers.x,
+        "upper_wire": droppers.upper_wire,
+        "lower_wire": droppers.lower_wire,
+        "stagger_top_m": droppers.stagger_top,
+        "stagger_bottom_m": droppers.stagger_bottom,
+        "inclination_deg": np.degrees(droppers.inclination),
+        "slack": droppers.slack,
     }
 
 
@@ -53,6 +60,7 @@ def wire_columns(result: FormResult) -> Columns:
         "tension_mean_N": [wire.tension_mean for wire in wires],
         "travel_m": [wire.travel for wire in wires],
         "sag_m": [wire.sag for wire in wires],
+        "role": [wire.role for wire in wires],
     }
 
 
@@ -69,6 +77,12 @@ def support_columns(result: FormResult) -> Columns:
         "force_z_N": supports.force_z,
         "strain_tension_N": supports.tension,
         "sliding_coordinate_m": supports.sliding_coordinate,
+        "y_m": supports.y,
+        "kind": supports.kind,
+        "chainage_m": supports.chainage,
+        "stagger_m": supports.stagger,
+        "height_m": supports.height,
+        "force_lateral_N": supports.force_lateral,
     }
 
 
@@ -114,6 +128,9 @@ def configuration_columns(result: FormResult) -> Columns:
         "strain_tension_N": "strain_tension",
         "horizontal_N": "horizontal",
         "moment_Nm": "moment",
+        "chainage_m": "chainage",
+        "lateral_m": "lateral",
+        "height_m": "height",
     }
     profiles = [wire.profile for wire in result.wires]
     columns: Columns = {"wire": [wire.name for wire in result.wires for _ in wire.profile.s]}

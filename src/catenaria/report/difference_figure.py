@@ -8,11 +8,12 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from matplotlib.figure import Figure
 
-from catenaria.report import style
+from catenaria.report import draw, style
 from catenaria.report.differences import Differences
 
 AGREE = 0.05e-3  # m: methods whose lengths differ by less are drawn as one
 
+_UPPER = "messenger wire"
 _LETTERS = 110  # in a line of the subtitle
 
 
@@ -34,10 +35,11 @@ def differences_figure(name: str, reference: str, found: Mapping[str, Difference
         each, colour = found[group[0]], style.CYCLE[i % len(style.CYCLE)]
         label = group[0] if len(group) == 1 else f"{group[0]} and {len(group) - 1} more"
         for panel, values in ((axes[0], 1e3 * each.length), (axes[2], each.force)):
-            style.line(panel, each.dropper_x, values, colour, width=0.8)
-            style.points(panel, each.dropper_x, values, colour, label)
-        style.line(axes[1], each.x, 1e3 * each.messenger_height, colour, label, width=1.2)
-    titles = ("Length of droppers", "Height of the messenger wire", "Force of droppers on the contact wire")
+            draw.line(panel, each.dropper_x, values, colour, width=0.8)
+            draw.points(panel, each.dropper_x, values, colour, label)
+        upper = each.height[each.wire.index(_UPPER)]
+        draw.line(axes[1], each.x, 1e3 * upper, colour, label, width=1.2)
+    titles = ("Length of droppers", f"Height of the {_UPPER}", "Force of droppers on the lower wire")
     for panel, text, unit in zip(axes, titles, ("mm", "mm", "N"), strict=True):
         style.describe(panel, text, "x [m]", f"difference [{unit}]")
     for panel in axes:  # so that droppers of all panels stand above each other
@@ -53,14 +55,15 @@ def agreeing(found: Mapping[str, Differences]) -> list[list[str]]:
     Examples
     --------
     >>> x = np.arange(3.0)
-    >>> a, b, c = (Differences(x, l + 0.0 * x, x, x, x, x) for l in (0.0, 0.04e-3, 5e-3))
+    >>> y = np.zeros((1, 3))
+    >>> a, b, c = (Differences(x, l + 0.0 * x, x, x, ("messenger wire",), y, y) for l in (0.0, 0.04e-3, 5e-3))
     >>> agreeing({"a": a, "b": b, "c": c})
     [['a', 'b'], ['c']]
     """
     groups: list[list[str]] = []
     for name, each in found.items():
         for group in groups:
-            if np.max(np.abs(each.length - found[group[0]].length)) <= AGREE:
+            if np.max(np.abs(each.length - found[group[0]].length), initial=0.0) <= AGREE:
                 group.append(name)
                 break
         else:

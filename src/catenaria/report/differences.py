@@ -6,6 +6,7 @@ import csv
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,72 +26,88 @@ class Differences:
     Attributes
     ----------
     dropper_x : FloatArray, shape (n,)
-        Where the droppers are [m].
+        Chainages of the droppers [m].
     length, force : FloatArray, shape (n,)
-        Dropper lengths [m] and forces on the contact wire [N].
+        Dropper lengths [m] and forces on the lower wires [N].
     x : FloatArray, shape (m,)
-        Places along the line between its first and its last support [m].
-    contact_height, messenger_height : FloatArray, shape (m,)
-        Heights of the wires there [m].
+        Chainages between the first and the last support [m].
+    wire : tuple of str
+        Names of the n_w wires.
+    height, lateral : FloatArray, shape (n_w, m)
+        Heights and lateral offsets of the wires there, in the track frame [m]; 0 where a wire does not reach.
     """
 
     dropper_x: FloatArray
     length: FloatArray
     force: FloatArray
     x: FloatArray
-    contact_height: FloatArray
-    messenger_height: FloatArray
+    wire: tuple[str, ...]
+    height: FloatArray
+    lateral: FloatArray
 
     @property
     def largest_length(self) -> float:
         """Largest difference of a dropper's length, without sign [m]."""
-        return float(np.max(np.abs(self.length)))
+        return float(np.max(np.abs(self.length), initial=0.0))
 
     @property
     def largest_height(self) -> float:
         """Largest difference of a wire's height, without sign [m]."""
-        return float(max(np.max(np.abs(self.contact_height)), np.max(np.abs(self.messenger_height))))
+        return float(np.max(np.abs(self.height)))
+
+    @property
+    def largest_lateral(self) -> float:
+        """Largest difference of a wire's lateral offset, without sign [m]."""
+        return float(np.max(np.abs(self.lateral)))
 
     @property
     def largest_force(self) -> float:
         """Largest difference of a dropper's force, without sign [N]."""
-        return float(np.max(np.abs(self.force)))
+        return float(np.max(np.abs(self.force), initial=0.0))
 
 
 def differences(result: FormResult, reference: FormResult) -> Differences:
     """Return one result minus another one of the same line."""
-    support_x = reference.supports.x
-    x = np.linspace(float(support_x.min()), float(support_x.max()), _SAMPLES)
-    contact, messenger = (
-        _height(one.profile, x) - _height(other.profile, x)
-        for one, other in zip(result.wires, reference.wires, strict=True)
-    )
+    place = reference.supports.chainage
+    x = np.linspace(float(place.min()), float(place.max()), _SAMPLES)
+    pairs = [(one.profile, other.profile) for one, other in zip(result.wires, reference.wires, strict=True)]
     one, other = result.droppers, reference.droppers
     return Differences(
-        other.x,
-        one.length - other.length,
-        one.force_bottom - other.force_bottom,
-        x,
-        contact,
-        messenger,
+        dropper_x=other.x,
+        length=one.length - other.length,
+        force=one.force_bottom - other.force_bottom,
+        x=x,
+        wire=tuple(wire.name for wire in reference.wires),
+        height=np.array([_difference(pair, "height", x) for pair in pairs]),
+        lateral=np.array([_difference(pair, "lateral", x) for pair in pairs]),
     )
 
 
-def _height(shape: Profile, x: FloatArray) -> FloatArray:
-    """Return the height of a wire at places along the track.
+def _difference(
+    pair: tuple[Profile, Profile], field: Literal["height", "lateral"], x: FloatArray
+) -> FloatArray:
+    """Return by how much one wire is higher or further to the left than the other, 0 where one ends."""
+    start = max(shape.chainage[0] for shape in pair)
+    end = min(shape.chainage[-1] for shape in pair)
+    one, other = (_along(shape.chainage, getattr(shape, field), x) for shape in pair)
+    return np.where((start <= x) & (x <= end), one - other, 0.0)
+
+
+def _along(chainage: FloatArray, offset: FloatArray, x: FloatArray) -> FloatArray:
+    """Return the height or the lateral offset of a wire at places along the track.
 
     Straight pieces between points would be a tenth of a millimetre off, a parabola through three points would
     cut kinks. So each piece is bent like the flatter one of its two neighbourhoods (Harten et al. 1987, ENO).
     """
-    i = np.clip(np.searchsorted(shape.x, x), 1, shape.x.size - 1)
-    slope = np.diff(shape.z) / np.diff(shape.x)
-    bend = np.zeros(shape.x.size)
-    bend[1:-1] = np.diff(slope) / (shape.x[2:] - shape.x[:-2])
+    i = np.clip(np.searchsorted(chainage, x), 1, chainage.size - 1)
+    slope = np.diff(offset) / np.diff(chainage)
+    bend = np.zeros(chainage.size)
+    bend[1:-1] = np.diff(slope) / (chainage[2:] - chainage[:-2])
     bend[0], bend[-1] = bend[1], bend[-2]
     before, after = bend[i - 1], bend[i]
     flatter = np.where(np.abs(before) < np.abs(after), before, after)
-    start, end = shape.x[i - 1], shape.x[i]
-    return shape.z[i - 1] + slope[i - 1] * (x - start) + flatter * (x - start) * (x - end)
+    start, end = chainage[i - 1], chainage[i]
+    return offset[i - 1] + slope[i - 1] * (x - start) + flatter * (x - start) * (x - end)
 
 
 def write_differences(found: Mapping[str, Differences], file: Path) -> Path:

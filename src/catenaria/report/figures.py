@@ -7,8 +7,8 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
-from catenaria.report import history_figures, line_figures, style
-from catenaria.results import FormResult
+from catenaria.report import history_figures, line_figures, space_figures, style
+from catenaria.results import FormResult, WireForm
 
 
 def write_figures(result: FormResult, folder: str | os.PathLike[str]) -> tuple[Path, ...]:
@@ -33,15 +33,30 @@ def write_figures(result: FormResult, folder: str | os.PathLike[str]) -> tuple[P
 
 
 def _line_figures(result: FormResult) -> dict[str, Figure]:
+    shapes = _space_figures if result.spatial else _plane_figures
     tensions = {
-        f"{wire.name.removesuffix(' wire')}_tension": line_figures.tension_figure(result, wire)
-        for wire in result.wires
+        f"{_short(wire)}_tension": line_figures.tension_figure(result, wire)
+        for wire in line_figures.long_wires(result)
     }
+    return {**shapes(result), "moments": line_figures.moment_figure(result), **tensions}
+
+
+def _short(wire: WireForm) -> str:
+    return wire.name.removesuffix(" wire").replace(" ", "_")
+
+
+def _plane_figures(result: FormResult) -> dict[str, Figure]:
     return {
         "configurations": line_figures.configuration_figure(result),
         "contact_wire": line_figures.contact_wire_figure(result),
-        "moments": line_figures.moment_figure(result),
-        **tensions,
+    }
+
+
+def _space_figures(result: FormResult) -> dict[str, Figure]:
+    return {
+        "profile": space_figures.profile_figure(result),
+        "plan": space_figures.plan_figure(result),
+        "contact_wire": space_figures.wanted_height_figure(result),
     }
 
 

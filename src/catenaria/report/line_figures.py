@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.figure import Figure
 
-from catenaria.report import style
+from catenaria.report import draw, scales, style
 from catenaria.results import FormResult, WireForm
 
 _ALONG = "distance along the track [m]"
@@ -22,12 +22,12 @@ def contact_wire_figure(result: FormResult) -> Figure:
         "Supports that hold the messenger wire only are marked lightly."
     )
     figure, [[axes]] = style.new_figure(f"Shape of the {wire.name} in equilibrium", text, [3.4])
-    style.line(axes, wire.profile.x, 1e3 * (wire.profile.z - datum), style.RED, wire.name)
-    style.points(axes, droppers.x, 1e3 * (droppers.height - datum), style.DARK, "dropper")
+    draw.line(axes, wire.profile.chainage, 1e3 * (wire.profile.height - datum), style.RED, wire.name)
+    draw.points(axes, droppers.x, 1e3 * (droppers.height - datum), style.DARK, "dropper")
     style.describe(axes, "", _ALONG, "height [mm]")
-    style.mark_supports(axes, _supports(result, result.wires[-1]), _supports(result, wire))
+    draw.mark_supports(axes, _supports(result, result.wires[-1]), _supports(result, wire))
     style.legend_above(axes)
-    style.state_exaggeration(axes, y_unit=1e-3)
+    scales.state_exaggeration(axes, y_unit=1e-3)
     return figure
 
 
@@ -41,26 +41,26 @@ def configuration_figure(result: FormResult) -> Figure:
     )
     ends = [np.interp(droppers.x, wire.start_x, wire.start_z) for wire in result.wires]
     for wire in result.wires:
-        colour = style.WIRE_COLOURS.get(wire.name, style.GREY)
-        style.line(start, wire.start_x, wire.start_z, colour, wire.name)
-        style.line(final, wire.profile.x, wire.profile.z, colour, wire.name)
-    style.bars(start, droppers.x, ends[0], ends[-1], "dropper")
-    style.bars(final, droppers.x, droppers.height, droppers.messenger_height, "dropper")
+        colour = style.wire_colour(wire.name, wire.role)
+        draw.line(start, wire.start_x, wire.start_z, colour, wire.name)
+        draw.line(final, wire.profile.chainage, wire.profile.height, colour, wire.name)
+    draw.bars(start, droppers.x, ends[0], ends[-1], "dropper")
+    draw.bars(final, droppers.x, droppers.height, droppers.messenger_height, "dropper")
     if few:
         middles = 0.5 * (droppers.height + droppers.messenger_height)
         for x, y, length in zip(droppers.x, middles, droppers.length, strict=True):
-            style.write_beside(final, float(x), float(y), f"{length:.3f}")
+            draw.write_beside(final, float(x), float(y), f"{length:.3f}")
     for axes, title in ((start, "(a) starting configuration"), (final, "(b) equilibrium")):
         style.describe(axes, title, _ALONG, "height [m]")
-        style.mark_supports(axes, _supports(result, result.wires[-1]))
+        draw.mark_supports(axes, _supports(result, result.wires[-1]))
         style.legend_above(axes)
-        style.state_exaggeration(axes, y_unit=1.0)
+        scales.state_exaggeration(axes, y_unit=1.0)
     return figure
 
 
 def tension_figure(result: FormResult, wire: WireForm) -> Figure:
     """Draw the tension along a wire, as in Figs. 24 and 25."""
-    profile, colour = wire.profile, style.WIRE_COLOURS.get(wire.name, style.DARK)
+    profile, x, colour = wire.profile, wire.profile.chainage, style.wire_colour(wire.name, wire.role)
     below = float(np.median(profile.tension - profile.strain_tension))
     text = (
         f"Axial force between the end supports: {wire.tension_min:.1f} N to {wire.tension_max:.1f} N, "
@@ -69,33 +69,39 @@ def tension_figure(result: FormResult, wire: WireForm) -> Figure:
         f"fraction T/EA of the tension T, here by {below:.1f} N; it overshoots where the wire bends sharply."
     )
     figure, [[axes]] = style.new_figure(f"Tension along the {wire.name} in equilibrium", text, [3.6])
-    style.line(axes, profile.x, 1e-3 * profile.strain_tension, style.GREY, "N = EA ε, eq. (11)", width=0.8)
-    style.line(axes, profile.x, 1e-3 * profile.tension, colour, "tension")
+    draw.line(axes, x, 1e-3 * profile.strain_tension, style.GREY, "N = EA ε, eq. (11)", width=0.8)
+    draw.line(axes, x, 1e-3 * profile.tension, colour, "tension")
     wanted = 1e-3 * wire.target_tension
-    style.level(axes, wanted, f"wanted: {wanted:.3f} kN")
+    draw.level(axes, wanted, f"wanted: {wanted:.3f} kN")
     if result.histories:  # other methods have no dead bands
         half = _dead_band(result, wire)
-        style.band(axes, wanted, 1e-3 * half, f"dead band: ±{half:g} N")
+        draw.band(axes, wanted, 1e-3 * half, f"dead band: ±{half:g} N")
     style.describe(axes, "", _ALONG, "tension [kN]")
-    style.mark_supports(axes, _supports(result, wire))
-    style.mark_droppers(axes, result.droppers.x)
+    draw.mark_supports(axes, _supports(result, wire))
+    draw.mark_droppers(axes, result.droppers.x)
     style.legend_above(axes)
     return figure
 
 
 def moment_figure(result: FormResult) -> Figure:
-    """Draw the bending moment along every wire."""
-    heights = [2.2] * len(result.wires)
-    figure, rows = style.new_figure("Bending moments in equilibrium", "Size of EJ κ, without sign.", heights)
-    for wire, [axes] in zip(result.wires, rows, strict=True):
+    """Draw the bending moment along every wire that supports hold."""
+    wires = long_wires(result)
+    text, heights = "Size of EJ κ, without sign.", [2.2] * len(wires)
+    figure, rows = style.new_figure("Bending moments in equilibrium", text, heights)
+    for wire, [axes] in zip(wires, rows, strict=True):
         moment = wire.profile.moment
-        style.line(axes, wire.profile.x, moment, style.WIRE_COLOURS.get(wire.name, style.DARK), width=1.0)
+        draw.line(axes, wire.profile.chainage, moment, style.wire_colour(wire.name, wire.role), width=1.0)
         style.describe(axes, f"{wire.name}: up to {moment.max():.3g} N m", _ALONG, "moment [N m]")
         axes.set_ylim(bottom=0.0)
-        style.mark_supports(axes, _supports(result, wire))
-        style.mark_droppers(axes, result.droppers.x)
+        draw.mark_supports(axes, _supports(result, wire))
+        draw.mark_droppers(axes, result.droppers.x)
         style.legend_above(axes)
     return figure
+
+
+def long_wires(result: FormResult) -> list[WireForm]:
+    """Return the wires that supports hold, not those between other wires."""
+    return [wire for wire in result.wires if wire.name in result.supports.wire]
 
 
 def _dead_band(result: FormResult, wire: WireForm) -> float:
@@ -106,5 +112,5 @@ def _dead_band(result: FormResult, wire: WireForm) -> float:
 
 def _supports(result: FormResult, wire: WireForm) -> dict[str, float]:
     """Positions by name of the supports that hold a wire."""
-    held = zip(result.supports.support, result.supports.wire, result.supports.x, strict=True)
+    held = zip(result.supports.support, result.supports.wire, result.supports.chainage, strict=True)
     return {name: float(x) for name, of, x in held if of == wire.name}

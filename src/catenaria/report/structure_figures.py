@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from catenaria.errors import InconsistentInputError
-from catenaria.report import style
+from catenaria.report import draw, scales, style
 from catenaria.results.structure import StructureForm, StructureHistory
 
 FloatArray = NDArray[np.float64]
@@ -65,11 +65,11 @@ def _figure(
     figure, [[axes]] = style.new_figure(title, "Simulated time is counted from the start of the run.", [3.2])
     for i, name in enumerate(names):
         colour = style.CYCLE[i % len(style.CYCLE)]
-        style.line(axes, history.time, scale * values[:, i], colour, name)
+        draw.line(axes, history.time, scale * values[:, i], colour, name)
     for name, level in marks.items():
-        style.level(axes, scale * level, f"{name}: {scale * level:g} {shown}")
+        draw.level(axes, scale * level, f"{name}: {scale * level:g} {shown}")
     if history.time[-1] > _LONG:
-        style.logarithmic_time(axes, history.time)
+        scales.logarithmic_time(axes, history.time)
     style.describe(axes, "", "simulated time [s]", f"{quantity} [{shown}]")
     style.legend_above(axes)
     return figure

@@ -15,19 +15,35 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from catenaria.report import columns
+from catenaria.report import attached_columns, columns
 from catenaria.report.columns import Columns
 from catenaria.results import FormResult
 
 if TYPE_CHECKING:
     from pandas import DataFrame  # pyright: ignore[reportMissingTypeStubs]  # pandas-stubs are optional
 
-TableName = Literal["droppers", "wires", "supports", "controls", "counters", "configuration", "history"]
+TableName = Literal[
+    "droppers",
+    "wires",
+    "supports",
+    "arms",
+    "ties",
+    "masses",
+    "cantilevers",
+    "controls",
+    "counters",
+    "configuration",
+    "history",
+]
 
 TABLES: dict[TableName, Callable[[FormResult], Columns]] = {
     "droppers": columns.dropper_columns,
     "wires": columns.wire_columns,
     "supports": columns.support_columns,
+    "arms": attached_columns.arm_columns,
+    "ties": attached_columns.tie_columns,
+    "masses": attached_columns.mass_columns,
+    "cantilevers": attached_columns.cantilever_columns,
     "controls": columns.control_columns,
     "counters": columns.counter_columns,
     "configuration": columns.configuration_columns,
@@ -36,11 +52,12 @@ TABLES: dict[TableName, Callable[[FormResult], Columns]] = {
 
 # The first suffix that fits decides; what fits none gets nine significant digits.
 _FORMATS = {
-    "error_m": "{:.7f}",
-    "parameter_m": "{:.7f}",
-    "_m": "{:.5f}",
-    "_N": "{:.3f}",
-    "_Nm": "{:.4f}",
+    "error_m": "%.7f",
+    "parameter_m": "%.7f",
+    "_m": "%.5f",
+    "_deg": "%.4f",
+    "_N": "%.3f",
+    "_Nm": "%.4f",
 }
 
 
@@ -77,17 +94,19 @@ def write_tables(result: FormResult, folder: str | os.PathLike[str]) -> tuple[Pa
     Returns
     -------
     tuple of Path
-        The files, ``droppers.csv`` first. A method without dynamic steps has no counters and no history.
+        The files, ``droppers.csv`` first. A method without dynamic steps has no counters and no history, a
+        plane line no arms, ties, masses and cantilevers.
     """
     contents = {name: build(result) for name, build in TABLES.items()}
     return tuple(
-        _write_csv(Path(folder) / f"{name}.csv", content)
+        write_csv(Path(folder) / f"{name}.csv", content)
         for name, content in contents.items()
         if len(next(iter(content.values())))
     )
 
 
-def _write_csv(file: Path, content: Columns) -> Path:
+def write_csv(file: Path, content: Columns) -> Path:
+    """Write columns into a CSV file, each formatted by the suffix of its name."""
     texts = [_texts(name, values) for name, values in content.items()]
     with file.open("w", newline="", encoding="utf-8") as stream:
         writer = csv.writer(stream, lineterminator="\n")
@@ -99,12 +118,11 @@ def _write_csv(file: Path, content: Columns) -> Path:
 def _texts(name: str, values: Sequence[Any] | NDArray[Any]) -> list[str]:
     """Format one column; a missing value is an empty cell."""
     items: list[Any] = np.asarray(values).tolist()
-    form = next((form for suffix, form in _FORMATS.items() if name.endswith(suffix)), "{:.9g}")
-    return [_text(item, form) if isinstance(item, float) else str(item) for item in items]
-
-
-def _text(value: float, form: str) -> str:
-    if value != value:
-        return ""
-    text = form.format(value)
-    return text.removeprefix("-") if float(text) == 0.0 else text
+    form = next((form for suffix, form in _FORMATS.items() if name.endswith(suffix)), "%.9g")
+    if items and all(isinstance(item, float) for item in items):
+        texts = ("\n".join([form] * len(items)) % tuple(items)).split("\n")  # at once: there are many
+    else:
+        texts = [form % item if isinstance(item, float) else str(item) for item in items]
+    zero = form % -0.0
+    special = {zero: zero[1:], "nan": ""}
+    return [special.get(text, text) for text in texts]

@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from catenaria.report import style
+from catenaria.report import draw, scales, style
 from catenaria.results import FormResult
 
 FloatArray = NDArray[np.float64]
@@ -31,12 +31,12 @@ def difference_figure(
         Half width of the band in which numbers agree.
     """
     figure, [[axes]] = style.new_figure(title, "Computed number minus the reference.", [3.4])
-    style.band(axes, 0.0, tolerance, f"tolerance: ±{tolerance:g}")
+    draw.band(axes, 0.0, tolerance, f"tolerance: ±{tolerance:g}")
     for colour, (name, difference) in zip(style.CYCLE, differences.items(), strict=False):
         number = np.arange(1.0, difference.size + 1.0)
-        style.line(axes, number, difference, colour, width=0.8)
-        style.points(axes, number, difference, colour, name)
-    style.count_along(axes, np.arange(1.0, max(map(len, differences.values())) + 1.0))
+        draw.line(axes, number, difference, colour, width=0.8)
+        draw.points(axes, number, difference, colour, name)
+    scales.count_along(axes, np.arange(1.0, max(map(len, differences.values())) + 1.0))
     style.describe(axes, "", "number of the dropper", quantity)
     style.legend_above(axes)
     return figure
@@ -61,12 +61,12 @@ def tension_measure_figure(results: Sequence[FormResult], marks: Mapping[str, fl
     tension = 1e-3 * np.array([result.wires[1].tension_mean for result in results])
     for colour, measure, name in ((style.RED, "strain", "N of (11)"), (style.BLUE, "reaction", "reaction")):
         chosen = np.array([result.wires[1].measure == measure for result in results])
-        style.points(axes, number[chosen], tension[chosen], colour, name)
+        draw.points(axes, number[chosen], tension[chosen], colour, name)
     ends = np.array([number.min(), number.max()])
     for colour, (name, level) in zip((style.DARK, *style.CYCLE[2:]), marks.items(), strict=False):
         label = f"{name}: {1e-3 * level:.2f} kN"
-        style.line(axes, ends, np.full(2, 1e-3 * level), colour, label, style=(0, (4, 3)))
-    style.count_along(axes, number, logarithmic=True)
+        draw.line(axes, ends, np.full(2, 1e-3 * level), colour, label, style=(0, (4, 3)))
+    scales.count_along(axes, number, logarithmic=True)
     style.describe(axes, "", "number of elements of the messenger wire", "mean tension [kN]")
     style.legend_above(axes)
     return figure

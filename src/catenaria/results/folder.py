@@ -11,6 +11,7 @@ from __future__ import annotations
 import hashlib
 import json
 import os
+import re
 import secrets
 import shutil
 from collections.abc import Generator
@@ -22,6 +23,7 @@ from catenaria.errors import InconsistentInputError
 
 MANIFEST_NAME = "manifest.json"
 _FORMAT = "catenaria output folder"
+_HIDDEN = re.compile(r"\.(.+)\.[0-9a-f]{8}\.(?:new|old)")  # names that a run gives to its folders meanwhile
 
 
 @contextmanager
@@ -107,6 +109,49 @@ def require_replaceable(folder: str | os.PathLike[str]) -> Path:
         )
     _require_writable_above(target)
     return target
+
+
+def has_manifest(folder: str | os.PathLike[str]) -> bool:
+    """Return whether a folder was written through `replace_folder`, changed since or not."""
+    return _read_manifest(Path(folder)) is not None
+
+
+def is_intact(folder: str | os.PathLike[str]) -> bool:
+    """Return whether a folder holds every file that `replace_folder` left in it, unchanged.
+
+    Parameters
+    ----------
+    folder : path
+        May be missing, or hold other files besides.
+    """
+    folder = Path(folder)
+    digests = _read_manifest(folder)
+    if digests is None:
+        return False
+    return all((folder / name).is_file() and _digest(folder / name) == digests[name] for name in digests)
+
+
+def clear_interrupted(parent: str | os.PathLike[str]) -> None:
+    """Remove what killed runs of `replace_folder` have left beside the folders they were to replace.
+
+    Parameters
+    ----------
+    parent : path
+        The folder with these folders; nobody may be writing into it through `replace_folder` now.
+
+    Notes
+    -----
+    A run that is killed between its two renamings leaves the earlier folder under a hidden name and nothing
+    in its place; that folder is put back.
+    """
+    parent = Path(parent)
+    paths = sorted(parent.iterdir()) if parent.is_dir() else []
+    for path in (path for path in paths if _HIDDEN.fullmatch(path.name)):
+        target = parent / _HIDDEN.sub(r"\1", path.name)
+        if path.suffix == ".old" and not target.exists():
+            path.rename(target)
+        else:
+            shutil.rmtree(path, ignore_errors=True)
 
 
 def _require_writable_above(target: Path) -> None:

@@ -20,17 +20,24 @@ import numpy as np
 from numpy.typing import NDArray
 
 from catenaria.errors import InconsistentInputError
+from catenaria.results.case import LoadStudy
 from catenaria.results.codec import Arrays, decode, encode
 from catenaria.results.form import FormResult
+from catenaria.results.rounding import RoundingStudy
 from catenaria.results.structure import StructureForm
+from catenaria.results.tolerance import ToleranceStudy
 
-Result = TypeVar("Result", FormResult, StructureForm)
+Stored = FormResult | StructureForm | LoadStudy | RoundingStudy | ToleranceStudy
+Result = TypeVar("Result", FormResult, StructureForm, LoadStudy, RoundingStudy, ToleranceStudy)
 
 FORMATS: dict[type, str] = {
     FormResult: "catenaria form-finding result",
     StructureForm: "catenaria structure result",
+    LoadStudy: "catenaria load cases",
+    RoundingStudy: "catenaria rounding study",
+    ToleranceStudy: "catenaria tolerance study",
 }
-VERSION = 1
+VERSION = 2
 JSON_NAME = "result.json"
 ARRAYS_NAME = "result.npz"
 
@@ -38,13 +45,13 @@ _EPOCH = (1980, 1, 1, 0, 0, 0)  # the earliest date that a zip file can hold
 _UNIX = 3  # ZipInfo.create_system would otherwise tell on which platform the file was written
 
 
-def save_result(result: FormResult | StructureForm, folder: str | os.PathLike[str]) -> Path:
+def save_result(result: Stored, folder: str | os.PathLike[str]) -> Path:
     """Write ``result.json`` and ``result.npz`` into a folder, which is made if need be.
 
     Parameters
     ----------
-    result : FormResult or StructureForm
-        What to save.
+    result : Stored
+        What to save: a form or a study.
     folder : path
         Where to; earlier files of these two names are replaced. (`catenaria.results.replace_folder` replaces
         a whole folder safely.)
@@ -83,17 +90,17 @@ def load_result(path: str | os.PathLike[str], kind: type[Result] = FormResult) -
     path : path
         The folder, or the JSON file within it.
     kind : type
-        What is read: a `FormResult` or a `StructureForm`.
+        What is read: a `FormResult`, a `StructureForm` or a `LoadStudy`.
 
     Returns
     -------
-    FormResult or StructureForm
+    FormResult, StructureForm or LoadStudy
         Equal to what was saved, to the last bit; arrays are read-only.
 
     Raises
     ------
     InconsistentInputError
-        If a file is missing, damaged, of another kind, of another program or of a newer version.
+        If a file is missing, damaged, of another kind, of another program or of another version.
     """
     path = Path(path)
     file = path / JSON_NAME if path.is_dir() else path
@@ -132,10 +139,15 @@ def _read_document(file: Path, expected: str) -> dict[str, Any]:
     version = document.get("version")
     if not isinstance(version, int) or version < 1:
         raise InconsistentInputError(f"{file} is damaged: its format version is {version!r}")
+    if version < VERSION:
+        raise InconsistentInputError(
+            f"{file} was written by an older catenaria: its format version is {version}, this one reads "
+            f"{VERSION}. Solve the line again"
+        )
     if version > VERSION:
         raise InconsistentInputError(
             f"{file} was written by a newer catenaria: its format version is {version}, "
-            f"this one reads up to {VERSION}. Upgrade catenaria, or solve the line again"
+            f"this one reads {VERSION}. Upgrade catenaria, or solve the line again"
         )
     return document
 

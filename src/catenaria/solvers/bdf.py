@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from typing import NoReturn
+from typing import NamedTuple, NoReturn
 
 import numpy as np
 
@@ -88,22 +88,36 @@ def integrate(
     """
     options = options or Options()
     state = begin(problem, start, t_end, options)
-    steps: list[Step] = []
+    rows: list[_Row] = []
     while state.history.t[0] < t_end:
         if state.counters.steps + state.counters.rejected >= options.max_steps:
-            _give_up(start, steps, state, Status.TOO_MANY_STEPS)
+            _give_up(start, rows, state, Status.TOO_MANY_STEPS)
         state = attempt(state, t_end, options)
         if state.accepted is None:
             if options.constant_step is not None or state.h < _smallest_step(state.history.t[0], options):
-                _give_up(start, steps, state, Status.STEP_FAILED)
+                _give_up(start, rows, state, Status.STEP_FAILED)
             continue
-        steps.append(state.accepted)
+        rows.append(_Row.of(state.accepted))
         for observe in observers:
             observe(state.accepted)
         reason = stop(state.accepted) if stop is not None else None
         if reason is not None:
-            return _solution(start, steps, state, Status.STOPPED, reason)
-    return _solution(start, steps, state, Status.END_REACHED, Status.END_REACHED.value)
+            return _solution(start, rows, state, Status.STOPPED, reason)
+    return _solution(start, rows, state, Status.END_REACHED, Status.END_REACHED.value)
+
+
+class _Row(NamedTuple):
+    """What is kept of an accepted step; its problem may hold megabytes of patterns."""
+
+    t: float
+    h: float
+    order: int
+    y: FloatArray
+    yd: FloatArray
+
+    @classmethod
+    def of(cls, step: Step) -> _Row:
+        return cls(step.t, step.h, step.order, step.y, step.yd)
 
 
 def attempt(state: State, t_end: float, options: Options) -> State:
@@ -218,16 +232,16 @@ def _accept(
     )
 
 
-def _solution(start: Start, steps: list[Step], state: State, status: Status, reason: str) -> Solution:
+def _solution(start: Start, rows: list[_Row], state: State, status: Status, reason: str) -> Solution:
     """Collect the rows of the start and the accepted steps."""
     t, y, yd = np.atleast_1d(start.t), np.atleast_2d(start.y), np.atleast_2d(start.yd)
     given = t.size
     return Solution(
-        t=np.concatenate((t, [step.t for step in steps])),
-        y=np.vstack((y, *(step.y for step in steps))),
-        yd=np.vstack((yd, *(step.yd for step in steps))),
-        h=np.array([0.0] * given + [step.h for step in steps]),
-        order=np.array([0] * given + [step.order for step in steps]),
+        t=np.concatenate((t, [row.t for row in rows])),
+        y=np.vstack((y, *(row.y for row in rows))),
+        yd=np.vstack((yd, *(row.yd for row in rows))),
+        h=np.array([0.0] * given + [row.h for row in rows]),
+        order=np.array([0] * given + [row.order for row in rows]),
         counters=state.counters,
         status=status,
         reason=reason,
@@ -235,7 +249,7 @@ def _solution(start: Start, steps: list[Step], state: State, status: Status, rea
     )
 
 
-def _give_up(start: Start, steps: list[Step], state: State, status: Status) -> NoReturn:
+def _give_up(start: Start, rows: list[_Row], state: State, status: Status) -> NoReturn:
     reason = f"At t = {state.history.t[0]:.6g} s {status.value} (next step {state.h:.3g} s)"
     if state.complaint:
         reason = f"{reason}: {state.complaint}"
@@ -243,4 +257,4 @@ def _give_up(start: Start, steps: list[Step], state: State, status: Status) -> N
         Status.STEP_FAILED: "consistent starting values, a wider error or Newton scale, smoother inputs",
         Status.TOO_MANY_STEPS: "a larger max_steps, a wider error scale, an earlier end",
     }[status]
-    raise NotConvergedError(reason, advice, _solution(start, steps, state, status, reason))
+    raise NotConvergedError(reason, advice, _solution(start, rows, state, status, reason))

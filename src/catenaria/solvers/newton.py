@@ -90,6 +90,7 @@ def solve_newton(
     y: FloatArray,
     options: NewtonOptions | None = None,
     inspect: Inspect | None = None,
+    factors: Factorisation | None = None,
 ) -> Root:
     """Find a root of f from a starting guess.
 
@@ -103,6 +104,8 @@ def solve_newton(
         Limits.
     inspect : callable, optional
         Is shown the first Jacobian and its factors before they are used, and may refuse them by an error.
+    factors : Factorisation, optional
+        Of the Jacobian somewhere near, for the first correction; where they contract well they serve for all.
 
     Returns
     -------
@@ -146,7 +149,7 @@ def solve_newton(
     Deuflhard 2004, Newton Methods for Nonlinear Problems, section 3.3, algorithm NLEQ-ERR.
     """
     options = options or NewtonOptions()
-    iterate = _Iterate(np.array(y, dtype=np.float64), problem)
+    iterate = _Iterate(np.array(y, dtype=np.float64), problem, factors=factors)
     while not iterate.converged:
         if len(iterate.corrections) >= options.max_iterations:
             raise _failure(iterate, f"Newton's method has made {options.max_iterations} iterations")

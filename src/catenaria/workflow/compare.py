@@ -10,12 +10,12 @@ from time import perf_counter
 
 from catenaria.audit import audit_result
 from catenaria.errors import CatenariaError, UnsupportedError
-from catenaria.line import Line, load_line, refuse_unsupported
+from catenaria.line import Line, load_line, refuse_for_method
 from catenaria.mechanics.kernels.warm_up import warm_up
 from catenaria.report.differences import Differences, differences, write_differences
 from catenaria.results import replace_folder
 from catenaria.results.form import FormResult
-from catenaria.workflow.methods import METHODS, NEGLECTS
+from catenaria.workflow.methods import METHODS, NEGLECTS, SPATIAL
 
 REFERENCE = "direct"
 
@@ -90,7 +90,7 @@ def compare(
             raise UnsupportedError(f"there is no method {name!r}; there is {', '.join(METHODS)}")
     if not isinstance(line, Line):
         line = load_line(line)
-    refuse_unsupported(line)
+    refuse_for_method(line, REFERENCE, spatial=True)
     warm_up()
     compared: list[Compared] = []
     reference: FormResult | None = None
@@ -105,6 +105,7 @@ def compare(
 def _run(line: Line, name: str, reference: FormResult | None) -> Compared:
     """Run one method; the first one is the reference and must not fail."""
     try:
+        refuse_for_method(line, name, spatial=name in SPATIAL)
         result, time = _timed(line, name)
         result = replace(result, audit=audit_result(result))
     except CatenariaError as error:

@@ -31,6 +31,8 @@ METHODS: dict[str, Make] = {
     **ELEMENT_METHODS,
 }
 
+SPATIAL = ("direct", "dynamic")  # the others know plane lines of two wires only
+
 NEGLECTS = {
     "direct": "nothing that the line describes",
     "dynamic": "what is left of targets within its dead bands",

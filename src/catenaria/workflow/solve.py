@@ -12,10 +12,10 @@ from catenaria.errors import NotConvergedError, UnsupportedError
 from catenaria.formfinding.progress import Listener, Progress
 from catenaria.formfinding.rebuild import Way
 from catenaria.formfinding.rebuild import rebuild as rebuild_line
-from catenaria.line import Line, Mesh, load_line, refuse_unsupported, with_mesh
+from catenaria.line import Line, Mesh, load_line, refuse_for_method, with_mesh
 from catenaria.mechanics.kernels.warm_up import need_compiling, warm_up
 from catenaria.results.form import FormResult
-from catenaria.workflow.methods import METHODS
+from catenaria.workflow.methods import METHODS, SPATIAL
 
 Rebuild = Literal["static", "relaxation", "none"]
 REBUILT = ("direct", "dynamic")
@@ -62,18 +62,13 @@ def solve(
         If the computation or the rebuilt line does not come to rest; in the latter case, `partial` is the
         result without a rebuild.
     """
-    if method not in METHODS:
-        raise UnsupportedError(f"there is no method {method!r}; there is {', '.join(METHODS)}")
-    if rebuild not in get_args(Rebuild):
-        raise UnsupportedError(f"there is no rebuild {rebuild!r}; there is {', '.join(get_args(Rebuild))}")
-    if rebuild == "relaxation" and method not in REBUILT:
-        raise UnsupportedError(f"only forms by {' and '.join(REBUILT)} are rebuilt, not by {method!r}")
+    refuse_choice(method, rebuild)
     begin = perf_counter()
     if not isinstance(line, Line):
         line = load_line(line)
     if mesh is not None:
         line = with_mesh(line, mesh)
-    refuse_unsupported(line)
+    refuse_for_method(line, method, spatial=method in SPATIAL)
     if progress is not None and need_compiling():
         progress(Progress("compiling", 1, 3))
         warm_up()
@@ -84,6 +79,22 @@ def solve(
     if progress is not None:
         progress(Progress("rebuild", 3, 3, elapsed=perf_counter() - begin))
     return _rebuilt(line, result, rebuild)
+
+
+def refuse_choice(method: str, rebuild: str) -> None:
+    """Refuse a method or a rebuild that does not exist, or both together.
+
+    Raises
+    ------
+    UnsupportedError
+        With the names that there are.
+    """
+    if method not in METHODS:
+        raise UnsupportedError(f"there is no method {method!r}; there is {', '.join(METHODS)}")
+    if rebuild not in get_args(Rebuild):
+        raise UnsupportedError(f"there is no rebuild {rebuild!r}; there is {', '.join(get_args(Rebuild))}")
+    if rebuild == "relaxation" and method not in REBUILT:
+        raise UnsupportedError(f"only forms by {' and '.join(REBUILT)} are rebuilt, not by {method!r}")
 
 
 def _rebuilt(line: Line, result: FormResult, way: Way) -> FormResult:

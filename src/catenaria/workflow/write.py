@@ -32,11 +32,16 @@ def write(result: FormResult, folder: str | os.PathLike[str], figures: bool = Tr
         If the folder holds something that is not an earlier result.
     """
     with replace_folder(folder) as new:
-        save_result(result, new)
-        write_tables(result, new)
-        if figures:
-            from catenaria.report.figures import write_figures  # slow to import
-
-            write_figures(result, new / "figures")
+        fill(result, new, figures)
         names = sorted(path.relative_to(new) for path in new.rglob("*") if path.is_file())
     return tuple(Path(folder) / name for name in names)
+
+
+def fill(result: FormResult, folder: Path, figures: bool) -> None:
+    """Write a result with its tables and figures into a folder that is nobody else's."""
+    save_result(result, folder)
+    write_tables(result, folder)
+    if figures:
+        from catenaria.report.figures import write_figures  # slow to import
+
+        write_figures(result, folder / "figures")

@@ -59,9 +59,11 @@ def test_the_tensioned_end_may_be_either(
     """Mirror images: a line read backwards with the tension at the other end has the same lengths."""
     data: dict[str, Any] = uneven.model_dump()
     spans: list[dict[str, Any]] = []
+    heights = list(reversed(uneven.dropper_target_height))
     for span, old in zip(reversed(data["spans"]), reversed(uneven.spans), strict=True):
         x = tuple(old.length - x for x in reversed(old.droppers.x))
-        spans.append({**span, "droppers": {"positions": x}, "contact_wire_height": old.heights[::-1]})
+        own, heights = heights[: len(x)], heights[len(x) :]
+        spans.append({**span, "droppers": {"positions": x}, "contact_wire_height": own})
     tension = data["messenger_wire"]["tension"] | {"at": "end"}
     contact = data["contact_wire"]["tension"] | {"at": "start"}
     mirrored = Line.model_validate(

@@ -59,5 +59,5 @@ class Bars:
 def bars(line: Line) -> Bars:
     """Return the droppers of a line."""
     kind, g = line.dropper, line.gravity
-    conductor = line.conductors[kind.conductor]
+    conductor = line.conductor(kind.conductor)
     return Bars(conductor.EA, conductor.rhoA * g, kind.clamp_mass_top * g, kind.clamp_mass_bottom * g)

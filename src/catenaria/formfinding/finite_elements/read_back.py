@@ -98,15 +98,19 @@ def _profile(shape: WireShape) -> Profile:
     bend[:-1, -1] = bend[1:, 0] = 0.5 * (bend[:-1, -1] + bend[1:, 0])
     x, z = _closed(r[..., 0]) + shape.mesh.origin, _closed(r[..., 1])
     tension, strain_tension = (np.interp(s, *_along(shape, values)) for values in _tensions(shape))
+    y = np.zeros_like(s)
     return Profile(
         s=s,
         x=x,
-        y=np.zeros_like(s),
+        y=y,
         z=z,
         tension=tension,
         strain_tension=strain_tension,
         horizontal=tension * _closed(r1[..., 0] / size),
         moment=_closed(bend),
+        chainage=x,
+        lateral=y,
+        height=z,
     )
 
 

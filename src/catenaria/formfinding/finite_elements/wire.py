@@ -124,7 +124,7 @@ def refuse_beyond_core(line: Line, method: str) -> None:
 
 
 def _mesh(line: Line, name: str, wire: Wire, support_x: FloatArray, height: float) -> WireMesh:
-    mesh, kind = line.solver.mesh, line.conductors[wire.conductor]
+    mesh, kind = line.solver.mesh, line.conductor(wire.conductor)
     origin = line.start_chainage
     support_x, clamp_x = support_x - origin, np.array(line.dropper_x) - origin
     joint_x = np.concatenate((support_x, clamp_x))

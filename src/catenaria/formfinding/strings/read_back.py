@@ -91,9 +91,15 @@ def _schedule(line: Line, task: StringLine, found: LineAtRest) -> Droppers:
     kind, span = line.dropper, np.array(line.dropper_span, dtype=np.int64)
     force_bottom, force_top = on_contact[:, 2], -on_messenger[:, 2]
     return Droppers(
+        lower_wire=(task.contact.name,) * span.size,
+        upper_wire=(task.messenger.name,) * span.size,
         span=span + 1,
         number=np.arange(span.size) - np.searchsorted(span, span) + 1,
         x=task.x,
+        position_bottom=foot,
+        position_top=top,
+        stagger_bottom=foot[:, 1].copy(),
+        stagger_top=top[:, 1].copy(),
         length=np.linalg.norm(top - foot, axis=1),
         unstressed_length=found.unstressed,
         cut_length=found.unstressed - kind.clamp_height_top - kind.clamp_height_bottom,
@@ -171,6 +177,7 @@ def _wire_form(wire: StringWire, string: StringAtRest) -> WireForm:
     chord = np.asarray(np.interp(x, at, up), dtype=np.float64)
     return WireForm(
         name=wire.name,
+        role=wire.name,
         unstressed_length=float(sampled.s[last] - sampled.s[first]),
         stretched_length=float(np.sum(sampled.length[first:last])),
         target_tension=wire.tension,
@@ -197,21 +204,30 @@ def _profile(sampled: _Sampled) -> Profile:
     x, y, z = sampled.r.T.copy()
     tension = sampled.size
     strain = tension / sampled.stretch
-    return Profile(sampled.s, x, y, z, tension, strain, sampled.F[:, 0].copy(), np.zeros_like(tension))
+    horizontal, moment = sampled.F[:, 0].copy(), np.zeros_like(tension)
+    return Profile(sampled.s, x, y, z, tension, strain, horizontal, moment, x, y, z)
 
 
 def _supports(line: Line, pairs: tuple[tuple[StringWire, StringAtRest], ...]) -> Supports:
     names = tuple(support.name for support in line.supports)
     held = tuple(names[i] for i in line.contact_support_indices), names
     force = np.concatenate([-string.force[string.support] for _, string in pairs])
+    x = np.concatenate([wire.support_x for wire, _ in pairs])
+    z = np.concatenate([wire.support_z for wire, _ in pairs])
     return Supports(
         support=tuple(name for each in held for name in each),
         wire=tuple(wire.name for wire, string in pairs for _ in string.support),
-        x=np.concatenate([wire.support_x for wire, _ in pairs]),
-        z=np.concatenate([wire.support_z for wire, _ in pairs]),
+        kind=("sliding",) * x.size,
+        x=x,
+        y=np.zeros_like(x),
+        z=z,
+        chainage=x,
+        stagger=np.zeros_like(x),
+        height=z,
         force_x=force[:, 0],
         force_y=force[:, 1],
         force_z=force[:, 2],
+        force_lateral=force[:, 1],
         tension=np.concatenate([_strain_tension(*pair) for pair in pairs]),
         sliding_coordinate=np.concatenate([string.s[string.support] for _, string in pairs]),
     )

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from catenaria.catenary.green_bar import stretch
 from catenaria.errors import UnsupportedError
-from catenaria.line import Line, refuse_unsupported
+from catenaria.line import Line, refuse_for_method
 from catenaria.line.wire import Wire
 
 FloatArray = NDArray[np.float64]
@@ -130,7 +130,7 @@ def string_line(line: Line, method: str) -> StringLine:
     UnsupportedError
         If the line asks for something that no method, or none for strings, can do; it is named.
     """
-    refuse_unsupported(line)
+    refuse_for_method(line, method, spatial=False)
     kind = line.dropper
     if kind.joint == "frictionless":
         raise UnsupportedError(
@@ -143,7 +143,7 @@ def string_line(line: Line, method: str) -> StringLine:
                 f"{field}.tension.measure: the strain at a support is that of a bent wire, which the method "
                 f"{method!r} does not know: use the reaction, or --method direct"
             )
-    conductor = line.conductors[kind.conductor]
+    conductor = line.conductor(kind.conductor)
     held = [line.supports[i].contact_wire for i in line.contact_support_indices]
     return StringLine(
         contact=_wire(
@@ -171,7 +171,7 @@ def string_line(line: Line, method: str) -> StringLine:
 
 
 def _wire(line: Line, wire: Wire, name: str, x: list[float], z: list[float]) -> StringWire:
-    conductor = line.conductors[wire.conductor]
+    conductor = line.conductor(wire.conductor)
     return StringWire(
         name=name,
         EA=conductor.EA,

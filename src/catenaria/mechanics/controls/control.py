@@ -1,9 +1,9 @@
 """A control is a parameter, a measure and a target: eqs. (19)-(23) as one concept.
 
 The parameter p is a length that somebody changes: how far a wire end is pulled outwards, how far the top of a
-dropper is raised, how far the lower end of an upper dropper cable is pulled down. It is always counted so
-that more of it makes the measured quantity m larger. The error is e = m - m*, and p follows the velocity law,
-p' = v(e).
+dropper is raised, how far the lower end of an upper dropper cable is pulled down, how long a dropper is. The
+error is e = m - m*, and p follows the velocity law, p' = v(e), or -v(e) where more of it makes the measured
+quantity m smaller.
 """
 
 from __future__ import annotations
@@ -63,6 +63,8 @@ class Controls:
     target_ramp : Ramp
         Brings the target in; for a force that balances weight it is the ramp of gravity, so that e = 0 at the
         start.
+    sense : float
+        1, or -1 where more of the parameter makes less of the measured quantity.
     """
 
     parameter: IntArray
@@ -71,14 +73,15 @@ class Controls:
     law: VelocityLaw
     velocity_ramp: Ramp
     target_ramp: Ramp
+    sense: float = 1.0
 
     def error(self, t: float, z: FloatArray) -> FloatArray:
         """Return e = m - m*, shape (n,)."""
         return self.measure.value(t, z) - self.target_ramp(t) * self.target
 
     def add_residual(self, state: State, f: FloatArray) -> None:
-        """Add p' - v(e) to f."""
-        velocity = self.law.velocity(self.error(state.t, state.z))
+        """Add p' -/+ v(e) to f."""
+        velocity = self.sense * self.law.velocity(self.error(state.t, state.z))
         f[self.parameter] += state.zd[self.parameter] - self.velocity_ramp(state.t) * velocity
 
     def pattern(self) -> Pattern:
@@ -90,8 +93,8 @@ class Controls:
         )
 
     def jacobian(self, state: State, c1: float, c2: float) -> FloatArray:
-        """Return c1 for p' and -v'(e) dm/dz."""
-        slope = -self.velocity_ramp(state.t) * self.law.slope(self.error(state.t, state.z))
+        """Return c1 for p' and -/+ v'(e) dm/dz."""
+        slope = -self.sense * self.velocity_ramp(state.t) * self.law.slope(self.error(state.t, state.z))
         gradient = self.measure.gradient(state.t, state.z)
         return np.concatenate((np.full(self.parameter.size, c1), (slope[:, None] * gradient).ravel()))
 

@@ -91,14 +91,15 @@ class CableElements:
         )
 
     @cached_property
-    def _quadrature(self) -> tuple[FloatArray, FloatArray, FloatArray]:
+    def quadrature(self) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """N' and N'' of an element of unit length, shape (n_points, 4), and weights (n_points,)."""
         points, weights = gauss_legendre(self.gauss_points)
         unit = np.ones(1)
         return shape_1(points, unit), shape_2(points, unit), weights
 
     def add_residual(self, state: State, f: FloatArray) -> None:
         """Add dU/dq to f."""
-        add_cable_forces(state.z, self.dofs, self.L, self.EA, self.EJ, *self._quadrature, f)
+        add_cable_forces(state.z, self.dofs, self.L, self.EA, self.EJ, *self.quadrature, f)
 
     def pattern(self) -> Pattern:
         """Return the entries of all 12 by 12 element matrices."""
@@ -110,11 +111,11 @@ class CableElements:
 
     def stiffness(self, z: FloatArray) -> FloatArray:
         """Return the tangent stiffness matrices, shape (n, 12, 12)."""
-        return cable_stiffness(z, self.dofs, self.L, self.EA, self.EJ, *self._quadrature)
+        return cable_stiffness(z, self.dofs, self.L, self.EA, self.EJ, *self.quadrature)
 
     def energies(self, z: FloatArray) -> FloatArray:
         """Return the axial and the bending term of (8) for every element [J], shape (n, 2)."""
-        return cable_energies(z, self.dofs, self.L, self.EA, self.EJ, *self._quadrature)
+        return cable_energies(z, self.dofs, self.L, self.EA, self.EJ, *self.quadrature)
 
     def mass(self) -> FloatArray:
         r"""Return the consistent mass matrices (14) [kg, kg m, kg m^2], shape (n, 12, 12).

@@ -1,0 +1,111 @@
+"""The dynamic equilibrium method in space: from the motion of a whole line to its form."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from catenaria.discretise.history import control_errors
+from catenaria.discretise.spatial.lay_out import lay_out
+from catenaria.discretise.spatial.model import FULL, SpatialModel
+from catenaria.discretise.spatial.read_back import control_names, control_units
+from catenaria.discretise.spatial.read_supports import hold_strain_tension
+from catenaria.discretise.spatial.restart import start_from
+from catenaria.formfinding.controlled_motion import Motion
+from catenaria.formfinding.progress import Listener, Progress
+from catenaria.formfinding.spatial.gather import gather
+from catenaria.formfinding.spatial.motion import MovingLine, at_start, move_line
+from catenaria.line import Line
+from catenaria.results.form import Counters, FormResult, History
+from catenaria.solvers.outcome import Solution
+
+FloatArray = NDArray[np.float64]
+
+
+def find_by_motion(line: Line, listener: Listener | None, start: FormResult | None = None) -> FormResult:
+    """Find the form of a line in space by moving it until it rests.
+
+    Parameters
+    ----------
+    line : Line
+        What the engineer describes.
+    listener : callable or None
+        Is told after every time step how far the motion is.
+    start : FormResult, optional
+        An earlier result to begin from, under full gravity, instead of the weightless line.
+
+    Raises
+    ------
+    NotConvergedError, InfeasibleError, SingularError, InconsistentInputError
+        See `catenaria.formfinding.dynamic_equilibrium.DynamicEquilibrium.find_form`.
+    """
+    if listener is not None:
+        listener(Progress("line", 1, 2))
+    moving = at_start(lay_out(line))
+    if start is not None:
+        moving = MovingLine.of(start_from(moving.model, start), 0.0)
+    motion = move_line(moving, line.solver.dynamic, listener)
+    bands = tuple(control.law.e0 for control in motion.controls)
+    history = _history(moving, motion.solution, _joint_names(line, moving.model))
+    return gather(
+        line, moving.model, motion.z, "dynamic", motion.solution.reason, _counters(motion), (history,), bands
+    )
+
+
+def _energies(model: SpatialModel, z: FloatArray) -> FloatArray:
+    """Return the axial and the bending term of (8) of all wires [J], shape (2,)."""
+    energies = model.elements.energies(z).sum(axis=0)
+    if model.has_pieces:
+        energies += model.pieces(FULL).energies(z).sum(axis=0)
+    return energies
+
+
+def _joint_names(line: Line, model: SpatialModel) -> tuple[str, ...]:
+    """Return the names of all places at which supports hold wires."""
+    holds = model.layout.holds
+    supports: list[int] = holds.support.tolist()
+    wires: list[int] = holds.wire.tolist()
+    pairs = zip(supports, wires, strict=True)
+    return tuple(f"{line.supports[i].name}, {model.layout.wires[k].name}" for i, k in pairs)
+
+
+def _history(moving: MovingLine, solution: Solution, joint_names: tuple[str, ...]) -> History:
+    """Return control errors, parameters, tensions at supports and energies at every accepted time step."""
+    model, controls = moving.model, moving.controls(moving.system)
+    parameter = np.concatenate([control.parameter for control in controls])
+    steps = list(zip(solution.t.tolist(), solution.y, solution.yd, strict=True))
+    energies = np.array([_energies(model, z) for _, z, _ in steps])
+    first = model.end_force[0]
+    return History(
+        step=moving.name,
+        time=solution.t,
+        step_size=solution.h,
+        order=solution.order,
+        control_name=control_names(model),
+        control_unit=control_units(model),
+        error=np.array([control_errors(controls, t, z) for t, z, _ in steps]),
+        parameter=solution.y[:, parameter],
+        velocity=solution.yd[:, parameter],
+        joint_name=joint_names,
+        joint_tension=np.array([hold_strain_tension(model, z) for _, z, _ in steps]),
+        reaction=np.linalg.norm(solution.y[:, first], axis=2),
+        kinetic=np.array([moving.inertia.kinetic_energy(zd) for _, _, zd in steps]),
+        axial=energies[:, 0],
+        bending=energies[:, 1],
+    )
+
+
+def _counters(motion: Motion[MovingLine]) -> Counters:
+    work = motion.solution.counters
+    return Counters(
+        step=motion.model.name,
+        simulated_time=motion.t,
+        wall_time=motion.wall_time,
+        steps=work.steps,
+        rejected=work.rejected,
+        newton_failures=work.newton_failures,
+        residuals=work.residuals,
+        jacobians=work.jacobians,
+        factorisations=work.factorisations,
+        unknowns=motion.system.size,
+    )

@@ -1,0 +1,141 @@
+"""Where a contact wire is pushed: at an even spacing, and at all supports, droppers and middles of spans."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import csr_array  # pyright: ignore[reportMissingTypeStubs]
+
+from catenaria.discretise.spatial.loaded import material_at
+from catenaria.discretise.spatial.model import SpatialModel
+from catenaria.errors import InconsistentInputError
+from catenaria.line import Line
+
+FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.int64]
+Matrix = Any  # SciPy's csr_array
+
+_SAME = 1e-6  # m: points that are nearer are one
+
+
+@dataclass(frozen=True)
+class Bay:
+    """From one support that holds the first contact wire to the next; `span` is its first span, from 1."""
+
+    span: int
+    start: float
+    end: float
+
+    @property
+    def middle(self) -> float:
+        """Chainage of its middle [m]."""
+        return 0.5 * (self.start + self.end)
+
+
+@dataclass(frozen=True)
+class PushPoints:
+    """Points at which contact wires are pushed, along the line.
+
+    Attributes
+    ----------
+    chainage : FloatArray, shape (n,)
+        [m].
+    bay : IntArray, shape (n,)
+        Index of the bay; a support belongs to the bay that it begins.
+    place : tuple of str
+        ``support S3``, ``dropper 2``, ``mid span``, or empty.
+    forces : csr_array, shape (n, n_unknowns)
+        Generalised unit forces, up across the track, in equal shares on all contact wires.
+    """
+
+    chainage: FloatArray
+    bay: IntArray
+    place: tuple[str, ...]
+    forces: Matrix
+
+
+def bays_of(model: SpatialModel) -> tuple[Bay, ...]:
+    """Return the bays of the first contact wire."""
+    holds = model.layout.holds
+    at = np.flatnonzero(holds.wire == 0).tolist()
+    x, support = holds.frame.chainage, holds.support
+    return tuple(Bay(int(support[i]) + 1, float(x[i]), float(x[j])) for i, j in pairwise(at))
+
+
+def push_points(
+    line: Line, model: SpatialModel, spacing: float, start: float | None = None, end: float | None = None
+) -> PushPoints:
+    """Return where a line is pushed.
+
+    Parameters
+    ----------
+    line : Line
+        The line.
+    model : SpatialModel
+        Its model, whose unknowns start where it rests.
+    spacing : float
+        Of points, without those at supports, droppers and middles of spans [m].
+    start, end : float, optional
+        First and last chainage [m]; by default the first and the last support of the contact wire.
+
+    Raises
+    ------
+    InconsistentInputError
+        If the spacing is not positive, or nothing is between start and end.
+    """
+    bays = bays_of(model)
+    first, last = bays[0].start, bays[-1].end
+    begin, stop = (first if start is None else start), (last if end is None else end)
+    if not (np.isfinite(spacing) and spacing > 0.0):
+        raise InconsistentInputError(f"the spacing is {spacing:g} m; it must be positive")
+    if not first <= begin < stop <= last:
+        raise InconsistentInputError(
+            f"nothing to push from {begin:g} to {stop:g} m; the contact wire is held from {first:g} to {last:g} m"
+        )
+    places = {x: name for x, name in _places(line, model, bays) if begin - _SAME <= x <= stop + _SAME}
+    known = np.array(sorted(places), dtype=np.float64)
+    even = np.append(np.arange(begin, stop, spacing), stop)
+    near = np.searchsorted(known, even - _SAME) < np.searchsorted(known, even + _SAME)
+    chainage = np.sort(np.concatenate((known, even[~near])))
+    ends = np.array([bay.start for bay in bays[1:]], dtype=np.float64)
+    return PushPoints(
+        chainage=chainage,
+        bay=np.searchsorted(ends, chainage, side="right").astype(np.int64),
+        place=tuple(places.get(x, "") for x in chainage.tolist()),
+        forces=_unit_forces(line, model, chainage),
+    )
+
+
+def _places(line: Line, model: SpatialModel, bays: tuple[Bay, ...]) -> list[tuple[float, str]]:
+    """Return chainages that have a name; where two names meet, the last one counts."""
+    droppers, holds = model.layout.droppers, model.layout.holds
+    wires = contact_wires(model)
+    named = [(bay.middle, "mid span") for bay in bays]
+    on_contact = np.isin(droppers.lower, wires)
+    hung = zip(droppers.frame.chainage[on_contact], droppers.number[on_contact], strict=True)
+    named += [(float(x), f"dropper {int(number)}") for x, number in hung]
+    for i in np.flatnonzero(holds.wire == 0).tolist():
+        named.append((float(holds.frame.chainage[i]), f"support {line.supports[int(holds.support[i])].name}"))
+    return named
+
+
+def contact_wires(model: SpatialModel) -> list[int]:
+    """Return the indices of the contact wires."""
+    return [k for k, wire in enumerate(model.layout.wires) if wire.role == "contact wire"]
+
+
+def _unit_forces(line: Line, model: SpatialModel, chainage: FloatArray) -> Matrix:
+    wires, up = contact_wires(model), line.alignment.frames(chainage).up
+    shape = (chainage.size, model.unknowns.size)
+    forces: Matrix = csr_array(shape)
+    for k in wires:
+        s = material_at(model, k, line.alignment, chainage)
+        point = model.wires[k].evaluate(model.unknowns.start, s)
+        value = point.N[:, :, None] * up[:, None, :] / len(wires)
+        row = np.broadcast_to(np.arange(chainage.size)[:, None, None], value.shape)
+        forces = forces + csr_array((value.ravel(), (row.ravel(), point.dofs.ravel())), shape=shape)
+    return forces
