@@ -14,13 +14,16 @@ from catenaria.audit.track import Across, Track, read_track
 FloatArray = NDArray[np.float64]
 
 
+SHARP = {"rounding": 0.0}
+
+
 def track(start: float = 0.0, gradients: tuple[dict[str, float], ...] = (), **curve: float) -> Track:
     defaults = {"start": 0.0, "length": 1000.0, "radius": 800.0, "transition": 0.0, "cant": 0.0}
     inputs: dict[str, Any] = {
         "start_chainage": start,
         "track": {
             "curves": [defaults | curve] if curve else [],
-            "gradients": list(gradients),
+            "gradients": [SHARP | gradient for gradient in gradients],
             "rail_spacing": 1.5,
         },
     }
@@ -84,6 +87,13 @@ def test_slopes_hold_from_where_they_begin() -> None:
     gradients = ({"start": 100.0, "slope": 0.01}, {"start": 300.0, "slope": -0.02})
     z = track(gradients=gradients).across(np.array([50.0, 100.0, 200.0, 300.0, 400.0])).origin[:, 2]
     np.testing.assert_allclose(z, [0.0, 0.0, 1.0, 2.0, 0.0], atol=1e-12)
+
+
+def test_rounded_slopes_are_parabolas() -> None:
+    """From level to 10 mm/m over 40 m: m l/8 above the corner, and the polygon again outside."""
+    gradients = ({"start": 100.0, "slope": 0.01, "rounding": 40.0},)
+    z = track(gradients=gradients).across(np.array([80.0, 90.0, 100.0, 120.0, 200.0])).origin[:, 2]
+    np.testing.assert_allclose(z, [0.0, 0.01 * 10.0**2 / 80.0, 0.01 * 40.0 / 8.0, 0.2, 1.0], atol=1e-12)
 
 
 @pytest.mark.parametrize("radius", [800.0, -800.0])

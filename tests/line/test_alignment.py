@@ -168,6 +168,18 @@ def test_the_axis_is_a_polygon_in_elevation() -> None:
     assert np.allclose(heights, [0.0, 0.0, 0.0, 1.0, 4.5, 0.5], rtol=0, atol=1e-14)
 
 
+def test_rounded_slopes_are_parabolas_of_constant_curvature() -> None:
+    """Differences: the slope grows by 10 mm/m over 40 m about 100 m, evenly; a sharp change does not."""
+    chainage = np.arange(60.0, 141.0)
+    for rounding, even in ((40.0, True), (0.0, False)):
+        gradient = Gradient(start=100.0, slope=0.01, rounding=rounding)
+        z = Alignment.of(Track(gradients=(gradient,)), 0.0).frames(chainage).origin[:, 2]
+        bend = np.diff(z, 2)[np.abs(chainage[1:-1] - 100.0) < 19.5]
+        assert np.allclose(bend, 0.01 / 40.0, rtol=0, atol=1e-12) == even
+        assert np.allclose(z[chainage >= 120.0], 0.01 * (chainage[chainage >= 120.0] - 100.0), atol=1e-12)
+        assert np.allclose(z[chainage <= 80.0], 0.0, atol=1e-15)
+
+
 def test_a_gradient_leaves_plan_and_planes_across_the_track_as_they_are() -> None:
     chainage = np.linspace(-50.0, 1400.0, 100)
     frames, level = (

@@ -23,7 +23,9 @@ def lines(documents: list[Any]) -> list[Line]:
     return [Line.model_validate(document) for document in documents]
 
 
-def test_the_same_seed_gives_the_same_network_and_a_smaller_one_is_its_beginning(documents: list[Any]) -> None:
+def test_the_same_seed_gives_the_same_network_and_a_smaller_one_is_its_beginning(
+    documents: list[Any],
+) -> None:
     assert list(network(7, seed=5)) == documents[:7]
     assert list(network(7, seed=6)) != documents[:7]
 

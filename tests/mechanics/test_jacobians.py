@@ -32,6 +32,7 @@ from catenaria.mechanics.controls.measures import (
     WireHeight,
 )
 from catenaria.mechanics.controls.pull import Pull
+from catenaria.mechanics.controls.sprung import Sprung
 from catenaria.mechanics.controls.target import Targets
 from catenaria.mechanics.controls.track_height import TrackHeight
 from catenaria.mechanics.controls.value import Value
@@ -52,6 +53,7 @@ from catenaria.mechanics.joints.sliding import SlidingJoints
 from catenaria.mechanics.joints.spherical import SphericalJoints
 from catenaria.mechanics.joints.supports import Supports
 from catenaria.mechanics.joints.ties import Ties
+from catenaria.mechanics.loads.dead import DeadLoads
 from catenaria.mechanics.loads.gravity import Gravity, Ramp
 from catenaria.mechanics.loads.hung_masses import HungMasses
 from catenaria.mechanics.loads.linear import Inertia, RayleighDamping, assemble, point_masses
@@ -231,6 +233,7 @@ PARTS: dict[str, Entry] = {
     "Inertia": Entry(mass),
     "RayleighDamping": Entry(damping),
     "Gravity": Entry(gravity),
+    "DeadLoads": Entry(lambda: DeadLoads(np.random.default_rng(5).normal(size=SIZE))),
     "SlidingJoints": Entry(supports),
     "SlidingJoints of nodes": Entry(clamps),
     "GuidedJoints": Entry(guides),
@@ -268,6 +271,7 @@ MEASURES: dict[str, Callable[[], Measure]] = {
     "ForceBalance": force_balance,
     "TrackHeight": lambda: TrackHeight(WIRE, S, IN_ELEMENT, 0.3 * UNIT, UNIT[::-1]),
     "Value": lambda: Value(LA[[2, 5]]),
+    "Sprung": lambda: Sprung(reaction(), P[[3, 1]], np.array([0.7, 1.9])),
     "Pull": lambda: Pull(LA[:6].reshape(2, 3), UNIT),
     "HungForce": hung_force,
 }
@@ -467,7 +471,7 @@ def test_control_system_without_a_parts_jacobian_fails() -> None:
     numerical = numerical_jacobian(system, state, complex_step=False)
     total = system.jacobian(state, C1, C2).toarray()
     for part in system.contributions:
-        if isinstance(part, Gravity):
+        if isinstance(part, Gravity | DeadLoads):
             continue
         with pytest.raises(AssertionError):
             check_close(total - dense(*part.pattern(), part.jacobian(state, C1, C2)), numerical)

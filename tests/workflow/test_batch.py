@@ -20,7 +20,8 @@ import pytest
 import catenaria
 from catenaria.errors import InconsistentInputError, NotConvergedError, UnsupportedError
 from catenaria.results import FormResult, load_result
-from catenaria.workflow import BatchProgress, cluster, solve, solve_many, write_network
+from catenaria.workflow import BatchProgress, Row, batch, cluster, solve, solve_many, write_network
+from catenaria.workflow.batch_line import Job
 
 pytestmark = pytest.mark.slow
 
@@ -66,7 +67,9 @@ def run(command: Start, *arguments: object) -> tuple[int, str, str]:
     return process.returncode, out, err
 
 
-def test_one_bad_line_does_not_stop_the_others(lines: Folder, tmp_path: Path, small_result: FormResult) -> None:
+def test_one_bad_line_does_not_stop_the_others(
+    lines: Folder, tmp_path: Path, small_result: FormResult
+) -> None:
     folder, out = lines(9), tmp_path / "out"
     (folder / "03.json").write_text('{"format": 1}', encoding="utf-8")
     told: list[BatchProgress] = []
@@ -80,6 +83,36 @@ def test_one_bad_line_does_not_stop_the_others(lines: Folder, tmp_path: Path, sm
     assert (told[-1].done, told[-1].failed, told[-1].remaining) == (8, 1, 0)
     assert [progress.done + progress.failed for progress in told[-9:]] == list(range(1, 10))
     assert hidden(out) == []
+
+
+def test_a_line_that_kills_its_worker_fails_and_the_others_do_not(
+    lines: Folder, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def deadly(job: Job) -> Row:
+        import os
+
+        from catenaria.workflow.batch_line import run_job
+
+        return os._exit(1) if job.line.name == "05.json" else run_job(job)
+
+    monkeypatch.setattr(batch, "run_job", deadly)
+    summary = solve_many([lines(12)], tmp_path / "out", workers=2)
+    assert summary.rows[5].why == "its worker process died: out of memory, or killed"
+    assert (summary.count("done"), summary.count("failed")) == (11, 1)
+    assert len(complete(tmp_path / "out")) == 11
+
+
+def test_a_worker_that_is_killed_costs_no_line(lines: Folder, tmp_path: Path) -> None:
+    def kill(progress: BatchProgress) -> None:
+        if progress.done == 3:
+            workers = [
+                each for each in psutil.Process().children() if "spawn_main" in " ".join(each.cmdline())
+            ]
+            workers[0].kill()
+
+    summary = solve_many([lines(20, large=True)], tmp_path / "out", workers=2, progress=kill)
+    assert [row.why for row in summary.rows if row.status != "done"] == []
+    assert hidden(tmp_path / "out") == []
 
 
 def test_lines_that_are_done_are_not_solved_again(command: Start, lines: Folder, tmp_path: Path) -> None:
@@ -178,7 +211,9 @@ def _end(process: Process) -> None:
 @pytest.fixture
 def scheduler(start: Start) -> str:
     """Start a scheduler and return its address."""
-    process = start("dask_scheduler", "--host", "127.0.0.1", "--port", "0", "--dashboard-address", "127.0.0.1:0")
+    process = start(
+        "dask_scheduler", "--host", "127.0.0.1", "--port", "0", "--dashboard-address", "127.0.0.1:0"
+    )
     assert process.stderr is not None
     for line in process.stderr:
         if found := re.search(r"Scheduler at: +(tcp://[\d.:]+)", line):
@@ -201,12 +236,17 @@ def test_a_cluster_of_two_workers(scheduler: str, start: Start, lines: Folder, t
 def test_a_cluster_without_workers_is_refused(scheduler: str, lines: Folder, tmp_path: Path) -> None:
     with pytest.raises(InconsistentInputError, match="has no workers. Try: dask worker tcp://"):
         solve_many([lines(1)], tmp_path / "out", scheduler=scheduler)
-    assert [row["status"] for row in table(tmp_path / "out")] == ["not run"]
+    assert list((tmp_path / "out").iterdir()) == []
 
 
 @pytest.mark.parametrize("loses", ["workers", "scheduler"])
 def test_a_cluster_that_is_lost_keeps_what_is_done(
-    start: Start, lines: Folder, tmp_path: Path, loses: str, monkeypatch: pytest.MonkeyPatch, request: pytest.FixtureRequest
+    start: Start,
+    lines: Folder,
+    tmp_path: Path,
+    loses: str,
+    monkeypatch: pytest.MonkeyPatch,
+    request: pytest.FixtureRequest,
 ) -> None:
     monkeypatch.setattr(cluster, "PATIENCE", 2.0)
     folder, out = lines(40, large=True), tmp_path / "out"
@@ -237,6 +277,7 @@ def test_an_unreachable_scheduler_is_bad_input_at_once(command: Start, lines: Fo
     assert err.startswith("the scheduler tcp://127.0.0.1:1 does not answer: ")
     assert len(err.splitlines()) == 1
     assert complete(out) == {"00", "01"}
+    assert [row["status"] for row in table(out)] == ["done", "done"]
 
 
 def test_bad_arguments_are_refused_before_anything_starts(lines: Folder, tmp_path: Path) -> None:

@@ -43,7 +43,13 @@ def count(monkeypatch: pytest.MonkeyPatch) -> list[Path]:
 
 def test_a_line_is_solved_and_told(job: Job, small_result: FormResult) -> None:
     row = run_job(job)
-    assert (row.status, row.why, row.reused, row.file, row.folder) == ("done", "", False, "small.json", "small")
+    assert (row.status, row.why, row.reused, row.file, row.folder) == (
+        "done",
+        "",
+        False,
+        "small.json",
+        "small",
+    )
     assert (row.spans, row.droppers, row.length_m) == (1, 2, 20.0)
     assert row.residual is not None
     assert 0.0 < row.residual <= 1.0
@@ -102,7 +108,9 @@ def test_what_changed_is_solved_again(job: Job, count: list[Path], change: Calla
     assert is_intact(job.line.folder)
 
 
-def test_the_fingerprint_depends_on_file_options_and_version(job: Job, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_fingerprint_depends_on_file_options_and_version(
+    job: Job, monkeypatch: pytest.MonkeyPatch
+) -> None:
     marks = {fingerprint(job.line.file, OPTIONS), fingerprint(job.line.file, replace(OPTIONS, figures=True))}
     monkeypatch.setattr(batch_line, "__version__", "another")
     marks.add(fingerprint(job.line.file, OPTIONS))

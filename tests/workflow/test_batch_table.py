@@ -29,7 +29,9 @@ def test_rows_come_back(tmp_path: Path) -> None:
     assert [path.name for path in tmp_path.iterdir()] == ["batch.csv"]
 
 
-def test_while_a_table_is_written_the_old_one_is_whole(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_while_a_table_is_written_the_old_one_is_whole(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     write_table(ROWS, tmp_path)
     old = (tmp_path / "batch.csv").read_bytes()
 

@@ -107,7 +107,9 @@ def test_no_workers_are_refused() -> None:
 
 
 @pytest.mark.parametrize(("scheme", "listens"), [("tcp://", False), ("tcp://", True), ("nonsense://", True)])
-def test_a_scheduler_that_does_not_answer_is_refused_in_time(scheme: str, listens: bool, tmp_path: Path) -> None:
+def test_a_scheduler_that_does_not_answer_is_refused_in_time(
+    scheme: str, listens: bool, tmp_path: Path
+) -> None:
     begin = time.perf_counter()
     with socket.socket() as server:  # says nothing
         server.bind(("127.0.0.1", 0))

@@ -102,13 +102,14 @@ class Track:
         Chainage at which the track runs along x through y = z = 0 [m].
     ramps : Ramps
         Its curves.
-    slope_from, slope_change : FloatArray
-        Chainages at which the slope changes [m], and by how much.
+    slope_from, slope_until, slope_change : FloatArray
+        Chainages from and until which the slope changes [m], and by how much.
     """
 
     begin: float
     ramps: Ramps
     slope_from: FloatArray
+    slope_until: FloatArray
     slope_change: FloatArray
 
     def across(self, chainage: FloatArray) -> Across:
@@ -132,7 +133,11 @@ class Track:
         return self.ramps.sum(c, k, 1) - self.ramps.sum(np.array([self.begin]), k, 1)
 
     def _elevation(self, c: FloatArray) -> FloatArray:
-        rise = _power(np.append(c, self.begin)[:, None] - self.slope_from, 1) @ self.slope_change
+        at, over = np.append(c, self.begin)[:, None], self.slope_until - self.slope_from
+        parabola = _power(at - self.slope_from, 2) - _power(at - self.slope_until, 2)
+        sharp = over == 0.0
+        share = np.where(sharp, _power(at - self.slope_from, 1), parabola / np.where(sharp, 1.0, over))
+        rise = share @ self.slope_change
         return rise[:-1] - rise[-1]
 
     def _plan(self, c: FloatArray) -> FloatArray:
@@ -170,6 +175,8 @@ def read_track(inputs: dict[str, Any]) -> Track:
 
     start, radius = column("start"), column("radius")
     slope = np.array([gradient["slope"] for gradient in gradients], dtype=np.float64)
+    about = np.array([gradient["start"] for gradient in gradients], dtype=np.float64)
+    rounding = np.array([gradient["rounding"] for gradient in gradients], dtype=np.float64)
     return Track(
         begin=float(inputs["start_chainage"]),
         ramps=Ramps(
@@ -179,7 +186,8 @@ def read_track(inputs: dict[str, Any]) -> Track:
             1.0 / radius,
             np.sign(radius) * column("cant") / track["rail_spacing"],
         ),
-        slope_from=np.array([gradient["start"] for gradient in gradients], dtype=np.float64),
+        slope_from=about - 0.5 * rounding,
+        slope_until=about + 0.5 * rounding,
         slope_change=np.diff(slope, prepend=0.0),
     )
 

@@ -31,7 +31,7 @@ def rounding(
     out: Annotated[
         Path | None,
         typer.Option(
-            help="Folder for the results.", show_default="that of RESULT, -rounding behind its name"
+            help="Folder for the results.", show_default="beside RESULT, with -rounding behind its name"
         ),
     ] = None,
     no_figures: Annotated[bool, typer.Option("--no-figures", help="Write no figure.")] = False,

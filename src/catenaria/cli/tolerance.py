@@ -34,7 +34,7 @@ def tolerance(
         Path | None,
         typer.Option(
             help="File with errors of installation.",
-            show_default="section installation of LINE, or usual ones",
+            show_default="those of LINE, or usual ones",
         ),
     ] = None,
     seed: Annotated[
@@ -51,9 +51,7 @@ def tolerance(
     ] = False,
     out: Annotated[
         Path | None,
-        typer.Option(
-            help="Folder for the results.", show_default="that of RESULT, -tolerance behind its name"
-        ),
+        typer.Option(help="Folder for the results.", show_default="RESULT with -tolerance behind it"),
     ] = None,
     no_figures: Annotated[bool, typer.Option("--no-figures", help="Write no figures.")] = False,
 ) -> None:
@@ -152,8 +150,8 @@ def show_study(study: ToleranceStudy, console: Console) -> None:
     )
     if study.model != "linear":
         console.print(
-            f"The linearised line leaves it in {100.0 * study.event('leaving, linear')[0]:.2f} %; its heights "
-            f"differ by {1e3 * study.difference:.3f} mm (rms) and at most {1e3 * study.largest_difference:.3f} mm.",
+            f"The linearised line leaves it in {100.0 * study.event('leaving, linear')[0]:.2f} %; heights differ "
+            f"by {1e3 * study.difference:.3f} mm (rms), {1e3 * study.largest_difference:.3f} mm at most.",
             soft_wrap=True,
         )
     if study.count_of("no rest"):

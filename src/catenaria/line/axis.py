@@ -139,28 +139,40 @@ class Plan:
 
 @dataclass(frozen=True)
 class Elevation:
-    """Height of the track axis, a polygon over the chainage; level before the first knot.
+    """Height of the track axis over the chainage: slopes, and parabolas where they change; level before all.
 
     Attributes
     ----------
-    knot, slope, z : FloatArray, shape (k,)
-        Where a slope begins [m], the slope from there on, and the height there [m].
+    start, change, rounding : FloatArray, shape (k,)
+        Chainages about which the slope changes [m], by how much, and over what length [m].
+    datum : float
+        Height that is taken off [m].
     """
 
-    knot: FloatArray
-    slope: FloatArray
-    z: FloatArray
+    start: FloatArray
+    change: FloatArray
+    rounding: FloatArray
+    datum: float
 
     @classmethod
     def of(cls, gradients: Sequence[Gradient], start: float) -> Elevation:
         """Return the elevation that is 0 at the chainage `start`."""
-        first = gradients[0].start if gradients else start
-        knot = np.array([first, *(gradient.start for gradient in gradients)])
         slope = np.array([0.0, *(gradient.slope for gradient in gradients)])
-        elevation = cls(knot, slope, np.append(0.0, np.cumsum(slope[:-1] * np.diff(knot))))
-        return replace(elevation, z=elevation.z - elevation.at(np.array([start])))
+        about = np.array([gradient.start for gradient in gradients], dtype=np.float64)
+        rounding = np.array([gradient.rounding for gradient in gradients], dtype=np.float64)
+        elevation = cls(about, np.diff(slope), rounding, 0.0)
+        return replace(elevation, datum=float(elevation.at(np.array([start]))[0]))
 
     def at(self, chainage: FloatArray) -> FloatArray:
-        """Return the height of the axis, shape (n,) [m]."""
-        i = np.maximum(np.searchsorted(self.knot, chainage, side="right") - 1, 0)
-        return self.z[i] + (chainage - self.knot[i]) * self.slope[i]
+        """Return the height of the axis, shape (n,) [m].
+
+        Notes
+        -----
+        A change of slope m over the length l about c0 adds m (c - c0) beyond it, and within it, from its
+        beginning at c0 - l/2, the parabola m u^2/(2 l).
+        """
+        ahead = chainage[:, None] - self.start
+        u = np.clip(ahead + 0.5 * self.rounding, 0.0, self.rounding)
+        curve = np.divide(0.5 * u * u, self.rounding, out=np.zeros_like(u), where=self.rounding > 0.0)
+        beyond = np.maximum(ahead - 0.5 * self.rounding, 0.0)
+        return (curve + beyond) @ self.change - self.datum

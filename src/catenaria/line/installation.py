@@ -38,9 +38,7 @@ class _Distribution(LineModel):
 
     def _problems(self) -> Iterator[Problem]:
         if self.clip is not None and self.distribution != "normal":
-            yield Problem(
-                ("clip",), self.clip, "a clip only of a normal distribution; others end by themselves"
-            )
+            yield Problem(("clip",), self.clip, "a clip of normal distributions only")
 
 
 class Spread(_Distribution):

@@ -21,7 +21,7 @@ def installation_problems(installation: Installation, line: Line) -> Iterator[Pr
         path = ("supports", i)
         if error.support not in names:
             meant = closest(error.support, names)
-            yield Problem((*path, "support"), error.support, f"one of the supports{meant}")
+            yield Problem((*path, "support"), error.support, f"one of {', '.join(names)}{meant}")
         elif error.wire not in _held(line, names.index(error.support)):
             yield Problem((*path, "wire"), error.wire, f"a wire that {error.support} holds")
     for i, error in enumerate(installation.wires):
@@ -50,11 +50,8 @@ def _unknown_dropper(path: Path, error: DropperError, line: Line) -> Iterator[Pr
 
 def _held(line: Line, support: int) -> Iterator[str]:
     """Yield the wires that a support holds."""
-    at = line.supports[support]
-    yield from (
-        name for name in _wires(line) if name.endswith("contact wire") and at.contact_wire is not None
-    )
-    yield from (name for name in _wires(line) if not name.endswith("contact wire"))
+    contact = line.supports[support].contact_wire is not None
+    yield from (name for name in _wires(line) if contact or not name.endswith("contact wire"))
 
 
 def _wires(line: Line) -> tuple[str, ...]:

@@ -54,6 +54,13 @@ class Gradient(LineModel):
     slope: Slope = Field(
         description="Rise of the track per length in plan, positive upwards with growing chainage."
     )
+    rounding: NonNegativeLength = Field(
+        default=0.0,
+        description=(
+            "Length of the parabola, half of it before `start`, over which the slope before becomes this one. "
+            "Droppers near a sharp change of slope would have to push the contact wire down."
+        ),
+    )
 
     @model_validator(mode="after")
     def _possible(self) -> Gradient:

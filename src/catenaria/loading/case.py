@@ -170,17 +170,10 @@ def _pushed(
     built: BuiltLine, unpushed: LoadedLine, load: FloatArray, pushes: Sequence[Push]
 ) -> tuple[LoadedLine, Pushed]:
     """Return the line with all pushes together, which begin where it rests without them."""
-    if not pushes:
-        return unpushed, Pushed((), np.empty(0), np.empty(0), np.empty(0))
-    model, alignment = unpushed.model, built.line.alignment
+    model, chainage = unpushed.model, np.array([push.chainage for push in pushes])
     here = replace(model, unknowns=replace(model.unknowns, start=unpushed.z))
-    names = [wire.name for wire in model.layout.wires]
-    wires, chainage = (
-        [names.index(push.wire) for push in pushes],
-        np.array([push.chainage for push in pushes]),
-    )
-    up, force = alignment.frames(chainage).up, np.array([push.force for push in pushes])
-    s = [material_at(here, k, alignment, c) for k, c in zip(wires, chainage[:, None], strict=True)]
+    up, force = built.line.alignment.frames(chainage).up, np.array([push.force for push in pushes])
+    wires, s = _points(built, unpushed, pushes)
     for k, at, push in zip(wires, s, force[:, None] * up, strict=True):
         load = load + point_load(here, k, at, push[None, :])[0]
     loaded = at_rest(built, model, load, unpushed.z)

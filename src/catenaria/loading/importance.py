@@ -39,8 +39,8 @@ def first_order_index(x: FloatArray, y: FloatArray) -> float:
 
     Notes
     -----
-    Pearson's correlation ratio Var(E[y|x])/Var(y) with equally filled bins of x, corrected for the part of the
-    variance of bins' means that is chance, as Kelley (1935) does: with N samples in B bins,
+    Pearson's correlation ratio Var(E[y|x])/Var(y) with equally filled bins of x, corrected for the part of
+    the variance of bins' means that is chance, as Kelley (1935) does: with N samples in B bins,
 
     .. math:: S = 1 - (1 - \eta^2)\frac{N - 1}{N - B}.
 
@@ -58,7 +58,7 @@ def first_order_index(x: FloatArray, y: FloatArray) -> float:
 
 
 def rank_correlation(x: FloatArray, y: FloatArray) -> float:
-    """Return Spearman's coefficient of samples without ties, shape (n,) each; 0 where one does not scatter."""
+    """Return Spearman's coefficient of samples without ties, shape (n,) each; 0 where one is constant."""
     if x.size < 2 or np.ptp(x) == 0.0 or np.ptp(y) == 0.0:
         return 0.0
     ranks = [np.argsort(np.argsort(values, kind="stable")) - 0.5 * (x.size - 1) for values in (x, y)]

@@ -16,7 +16,6 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csr_array  # pyright: ignore[reportMissingTypeStubs]
 
-from catenaria.discretise.spatial.demands import heights
 from catenaria.discretise.spatial.layout import across
 from catenaria.discretise.spatial.loaded import loaded_system
 from catenaria.discretise.spatial.model import SpatialModel
@@ -144,7 +143,7 @@ class InstalledLine:
 
     @cached_property
     def constants(self) -> Any:
-        """By how much each error changes what the residual subtracts, shape (n, m); without hinges of arms."""
+        """What each error adds to what the residual subtracts, shape (n, m); without hinges of arms."""
         shape = (self.z.size, self.sources.count)
         entries = list(self._entries())
         if not entries:
@@ -202,7 +201,7 @@ class InstalledLine:
         return np.array([aside, up]), np.array([across(holds.frame)[i] @ way, rises])
 
     def _anchored(self, i: int, field: Literal["height", "stagger"], way: FloatArray) -> Iterator[Entry]:
-        """Yield the rows of a wire's end behind this place, if it is anchored at the same height or stagger."""
+        """Yield the rows of a wire's end behind this place, if it shares its height or stagger."""
         on = self.model.layout.holds.wire
         k = int(on[i])
         wire = line_wire(self.built.line, self.model.layout.wires[k].role)

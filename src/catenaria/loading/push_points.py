@@ -23,8 +23,8 @@ _SAME = 1e-6  # m: points that are nearer are one
 
 
 @dataclass(frozen=True)
-class Bay:
-    """From one support that holds the first contact wire to the next; `span` is its first span, from 1."""
+class Stretch:
+    """A span of the line, from 1, between its supports at two chainages [m]."""
 
     span: int
     start: float
@@ -44,26 +44,27 @@ class PushPoints:
     ----------
     chainage : FloatArray, shape (n,)
         [m].
-    bay : IntArray, shape (n,)
-        Index of the bay; a support belongs to the bay that it begins.
+    span : IntArray, shape (n,)
+        Index of the stretch; a support belongs to the span that it begins.
     place : tuple of str
-        ``support S3``, ``dropper 2``, ``mid span``, or empty.
+        ``support S3``, ``dropper 2``, ``mid span``, two of them with a comma between, or empty.
     forces : csr_array, shape (n, n_unknowns)
         Generalised unit forces, up across the track, in equal shares on all contact wires.
     """
 
     chainage: FloatArray
-    bay: IntArray
+    span: IntArray
     place: tuple[str, ...]
     forces: Matrix
 
 
-def bays_of(model: SpatialModel) -> tuple[Bay, ...]:
-    """Return the bays of the first contact wire."""
+def stretches(line: Line, model: SpatialModel) -> tuple[Stretch, ...]:
+    """Return the spans between the first and the last support that hold the first contact wire."""
     holds = model.layout.holds
-    at = np.flatnonzero(holds.wire == 0).tolist()
-    x, support = holds.frame.chainage, holds.support
-    return tuple(Bay(int(support[i]) + 1, float(x[i]), float(x[j])) for i, j in pairwise(at))
+    held = holds.frame.chainage[holds.wire == 0]
+    first, last = held.min() - _SAME, held.max() + _SAME
+    ends = enumerate(pairwise(line.support_x), start=1)
+    return tuple(Stretch(i, a, b) for i, (a, b) in ends if first <= a and b <= last)
 
 
 def push_points(
@@ -87,8 +88,8 @@ def push_points(
     InconsistentInputError
         If the spacing is not positive, or nothing is between start and end.
     """
-    bays = bays_of(model)
-    first, last = bays[0].start, bays[-1].end
+    spans = stretches(line, model)
+    first, last = spans[0].start, spans[-1].end
     begin, stop = (first if start is None else start), (last if end is None else end)
     if not (np.isfinite(spacing) and spacing > 0.0):
         raise InconsistentInputError(f"the spacing is {spacing:g} m; it must be positive")
@@ -96,31 +97,39 @@ def push_points(
         raise InconsistentInputError(
             f"nothing to push from {begin:g} to {stop:g} m; the contact wire is held from {first:g} to {last:g} m"
         )
-    places = {x: name for x, name in _places(line, model, bays) if begin - _SAME <= x <= stop + _SAME}
+    places = _places(line, model, spans, begin, stop)
     known = np.array(sorted(places), dtype=np.float64)
-    even = np.append(np.arange(begin, stop, spacing), stop)
+    even = np.append(np.arange(begin, stop - _SAME, spacing), stop)
     near = np.searchsorted(known, even - _SAME) < np.searchsorted(known, even + _SAME)
     chainage = np.sort(np.concatenate((known, even[~near])))
-    ends = np.array([bay.start for bay in bays[1:]], dtype=np.float64)
+    ends = np.array([span.start for span in spans[1:]], dtype=np.float64)
     return PushPoints(
         chainage=chainage,
-        bay=np.searchsorted(ends, chainage, side="right").astype(np.int64),
+        span=np.searchsorted(ends, chainage, side="right").astype(np.int64),
         place=tuple(places.get(x, "") for x in chainage.tolist()),
         forces=_unit_forces(line, model, chainage),
     )
 
 
-def _places(line: Line, model: SpatialModel, bays: tuple[Bay, ...]) -> list[tuple[float, str]]:
-    """Return chainages that have a name; where two names meet, the last one counts."""
+def _places(
+    line: Line, model: SpatialModel, spans: tuple[Stretch, ...], begin: float, stop: float
+) -> dict[float, str]:
+    """Return the names of all chainages that have one."""
     droppers, holds = model.layout.droppers, model.layout.holds
-    wires = contact_wires(model)
-    named = [(bay.middle, "mid span") for bay in bays]
-    on_contact = np.isin(droppers.lower, wires)
+    on_contact = np.isin(droppers.lower, contact_wires(model))
     hung = zip(droppers.frame.chainage[on_contact], droppers.number[on_contact], strict=True)
-    named += [(float(x), f"dropper {int(number)}") for x, number in hung]
-    for i in np.flatnonzero(holds.wire == 0).tolist():
-        named.append((float(holds.frame.chainage[i]), f"support {line.supports[int(holds.support[i])].name}"))
-    return named
+    held = np.flatnonzero(holds.wire == 0).tolist()
+    named = [
+        *((span.middle, "mid span") for span in spans),
+        *((float(x), f"dropper {int(number)}") for x, number in hung),
+        *((float(holds.frame.chainage[i]), f"support {line.supports[int(holds.support[i])].name}") for i in held),
+    ]
+    places: dict[float, str] = {}
+    for x, name in sorted(pair for pair in named if begin - _SAME <= pair[0] <= stop + _SAME):
+        last = next(reversed(places), -np.inf)
+        at = last if x - last < _SAME else x
+        places[at] = f"{places[at]}, {name}" if at in places else name
+    return places
 
 
 def contact_wires(model: SpatialModel) -> list[int]:

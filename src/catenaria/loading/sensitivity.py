@@ -105,7 +105,7 @@ def _elasticity(installed: InstalledLine, response: FloatArray) -> tuple[FloatAr
 
 
 def _unit_forces(installed: InstalledLine) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Return unit forces b on the first contact wire at mid spans, shape (n_spans, n), u and w, transposed."""
+    """Return unit forces b on the first contact wire at mid spans, shape (n_spans, n), and u, w by column."""
     line, x = installed.built.line, np.array(installed.built.line.support_x)
     middle = material_at(installed.model, 0, line.alignment, 0.5 * (x[:-1] + x[1:]))
     b = point_load(installed.model, 0, middle, np.tile(_UP, (middle.size, 1)))

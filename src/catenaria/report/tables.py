@@ -55,6 +55,8 @@ _FORMATS = {
     "error_m": "%.7f",
     "parameter_m": "%.7f",
     "_m": "%.5f",
+    "_mm": "%.4f",
+    "mm_per_N": "%.6f",
     "_deg": "%.4f",
     "_N": "%.3f",
     "_Nm": "%.4f",

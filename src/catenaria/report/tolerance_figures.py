@@ -48,9 +48,8 @@ def band_figure(study: ToleranceStudy) -> Figure:
     x = study.chainage[own]
     above = _above(study.height, study.wanted_height, own)
     for low, high, dark in _BANDS:
-        draw_statistics.between(
-            band, x, above[LEVELS.index(low)], above[LEVELS.index(high)], dark, f"{low:g} % to {high:g} %"
-        )
+        least, most = (above[LEVELS.index(level)] for level in (low, high))
+        draw_statistics.between(band, x, least, most, dark, f"{low:g} % to {high:g} %")
     draw.line(band, x, above[LEVELS.index(50.0)], style.BLUE, "median", width=1.2)
     for extreme, label in ((study.height.minimum, "least, most"), (study.height.maximum, "")):
         line = 1e3 * (extreme - study.wanted_height)[own]
@@ -73,8 +72,8 @@ def histogram_figure(study: ToleranceStudy) -> Figure:
     share, low, high = (100.0 * value for value in study.event("leaving"))
     by_linear = 100.0 * study.event("leaving, linear")[0]
     text = (
-        f"{study.samples} samples, {study.model}. Beyond ±{1e3 * study.tolerance:g} mm somewhere: {share:.3g} % "
-        f"(95 % limits {low:.3g} % to {high:.3g} %); linearised line: {by_linear:.3g} %.\n"
+        f"{study.samples} samples, {study.model}. Somewhere beyond ±{1e3 * study.tolerance:g} mm: "
+        f"{share:.3g} % (95 % limits {low:.3g} % to {high:.3g} %); linearised line: {by_linear:.3g} %.\n"
         f"Samples without rest: {study.count_of('no rest')}; with a slack dropper: {study.count_of('slack')}."
     )
     figure, [[axes]] = style.new_figure("Largest height error of a line", text, [3.4])
@@ -116,8 +115,8 @@ def force_figure(study: ToleranceStudy) -> Figure:
     figure, [[axes]] = style.new_figure("Forces in droppers under errors of installation", text, [3.2])
     x, force = study.chainage, study.force
     for (low, high, _), colour in zip(_BANDS[::2], (style.SKY, style.BLUE), strict=True):
-        limits = (force.percentile[:, LEVELS.index(level)] for level in (low, high))
-        draw.bars(axes, x, *limits, f"{low:g} % to {high:g} %", colour)
+        least, most = (force.percentile[:, LEVELS.index(level)] for level in (low, high))
+        draw.bars(axes, x, least, most, f"{low:g} % to {high:g} %", colour)
     draw.points(axes, x, force.nominal, style.DARK, "without errors")
     style.describe(axes, "", _CHAINAGE, "force [N]")
     draw.mark_supports(axes, study.supports)
@@ -150,6 +149,6 @@ def _above(height: Scatter, wanted: FloatArray, own: NDArray[np.bool_]) -> Float
 
 
 def _percent(axes: Axes, x: FloatArray, study: ToleranceStudy, own: NDArray[np.bool_]) -> None:
-    limits = (100.0 * values[own] for values in (study.outside.lower, study.outside.upper))
-    draw.bars(axes, x, *limits, "", style.GREY)
+    low, high = (100.0 * values[own] for values in (study.outside.lower, study.outside.upper))
+    draw.bars(axes, x, low, high, "", style.GREY)
     draw.points(axes, x, 100.0 * study.outside.probability[own], style.RED, "")

@@ -6,21 +6,26 @@ import os
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from catenaria.report.columns import Columns
 from catenaria.report.tables import write_csv
 from catenaria.results.rounding import RoundedLine, RoundingStudy
 from catenaria.results.tolerance import LEVELS, Scatter, ToleranceStudy
 
+FloatArray = NDArray[np.float64]
+
 
 def write_tolerance_tables(study: ToleranceStudy, folder: str | os.PathLike[str]) -> tuple[Path, ...]:
     """Write heights.csv, forces.csv, tensions.csv, elasticity.csv, groups.csv, errors.csv and events.csv."""
-    tables = {
+    tables: dict[str, Columns] = {
         "heights": height_columns(study),
-        "forces": _places(study) | scatter_columns(study.force, "N") | {"slack_samples": study.slack},
-        "tensions": {"wire_end": study.tension.name} | scatter_columns(study.tension, "N"),
-        "elasticity": {"span": np.arange(1, len(study.elasticity.name) + 1)}
-        | scatter_columns(study.elasticity, "mm_per_N", 1e3),
+        "forces": {**_places(study), **scatter_columns(study.force, "N"), "slack_samples": study.slack},
+        "tensions": {"wire_end": study.tension.name, **scatter_columns(study.tension, "N")},
+        "elasticity": {
+            "span": np.arange(1, len(study.elasticity.name) + 1),
+            **scatter_columns(study.elasticity, "mm_per_N", 1e3),
+        },
         "groups": group_columns(study),
         "errors": error_columns(study),
         "events": event_columns(study),
@@ -34,28 +39,29 @@ def height_columns(study: ToleranceStudy) -> Columns:
     return {
         **_places(study),
         "wanted_height_m": study.wanted_height,
-        **scatter_columns(study.height, "m"),
+        **scatter_columns(study.height, "above_wanted_mm", 1e3, study.wanted_height),
         "probability_outside": outside.probability,
         "probability_outside_lower": outside.lower,
         "probability_outside_upper": outside.upper,
-        "linear_mean_m": study.linear_height.mean,
-        "linear_deviation_m": study.linear_height.deviation,
+        "linear_mean_above_wanted_mm": 1e3 * (study.linear_height.mean - study.wanted_height),
+        "linear_deviation_mm": 1e3 * study.linear_height.deviation,
     }
 
 
-def scatter_columns(scatter: Scatter, unit: str, factor: float = 1.0) -> Columns:
-    """Return the columns that say how quantities scatter."""
-    percentiles = {
-        f"percentile_{level:g}_{unit}": factor * scatter.percentile[:, i] for i, level in enumerate(LEVELS)
+def scatter_columns(
+    scatter: Scatter, unit: str, factor: float = 1.0, origin: FloatArray | float = 0.0
+) -> Columns:
+    """Return the columns that say how quantities scatter, in a unit and counted from an origin."""
+    of = {
+        "nominal": scatter.nominal,
+        "mean": scatter.mean,
+        "minimum": scatter.minimum,
+        **{f"percentile_{level:g}": scatter.percentile[:, i] for i, level in enumerate(LEVELS)},
+        "maximum": scatter.maximum,
     }
-    return {
-        f"nominal_{unit}": factor * scatter.nominal,
-        f"mean_{unit}": factor * scatter.mean,
-        f"deviation_{unit}": factor * scatter.deviation,
-        f"minimum_{unit}": factor * scatter.minimum,
-        **percentiles,
-        f"maximum_{unit}": factor * scatter.maximum,
-    }
+    columns: Columns = {f"{name}_{unit}": factor * (values - origin) for name, values in of.items()}
+    columns[f"deviation_{unit}"] = factor * scatter.deviation
+    return columns
 
 
 def group_columns(study: ToleranceStudy) -> Columns:

@@ -45,7 +45,7 @@ class Scatter:
             name,
             nominal,
             samples.mean(axis=0),
-            samples.std(axis=0, ddof=1) if samples.shape[0] > 1 else np.zeros(samples.shape[1]),
+            np.sqrt(samples.var(axis=0, ddof=1)) if samples.shape[0] > 1 else np.zeros(samples.shape[1]),
             samples.min(axis=0),
             samples.max(axis=0),
             np.ascontiguousarray(np.percentile(samples, LEVELS, axis=0).T),
@@ -84,7 +84,7 @@ class Importance:
     count : IntArray, shape (n,)
         Number of errors in each.
     share : FloatArray, shape (n,)
-        Share of the variance of heights, summed over all droppers of the contact wire, by linear sensitivities.
+        Share of the variance of heights, summed over all droppers of the contact wire, by sensitivities.
     share_at : FloatArray, shape (n, n_droppers)
         The same at every dropper.
     sampled_share : FloatArray, shape (n,)
@@ -164,9 +164,9 @@ class ToleranceStudy:
     outside : Chances
         That a dropper's height is off by more than the tolerance.
     events : Chances
-        ``leaving``: any height of the contact wire is off by more than the tolerance, or the sample did not come
-        to rest. ``leaving, linear``: the same of the linearised line. ``slack``: any dropper hangs slack.
-        ``no rest``: no equilibrium was found.
+        ``leaving``: any height of the contact wire is off by more than the tolerance, or the sample did not
+        come to rest. ``leaving, linear``: the same of the linearised line. ``slack``: any dropper hangs
+        slack. ``no rest``: no equilibrium was found.
     slack : IntArray, shape (n_droppers,)
         In how many samples each dropper hangs slack.
     importance : Importance

@@ -130,14 +130,16 @@ def solve_many(
     _clear(lines)
     try:
         with _cluster(workers, scheduler, folder, ledger) as cluster:
-            for row in _outcomes(cluster, jobs):
-                ledger.enter(row)
+            try:
+                for row in _outcomes(cluster, jobs):
+                    ledger.enter(row)
+            finally:
+                write_table(ledger.rows(), folder)
     except NotConvergedError as error:
         raise NotConvergedError(error.reason, error.advice, ledger.summary(begin)) from error
     finally:
         if scheduler is None:  # its workers are gone
             _clear(lines)
-        write_table(ledger.rows(), folder)
     return ledger.summary(begin)
 
 

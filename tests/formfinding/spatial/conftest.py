@@ -113,6 +113,7 @@ CURVED: Change = {
     "solver.dynamic.contact_tension": {"dead_band": 0.1, "saturation": 2.5},
     "solver.dynamic.messenger_tension": {"dead_band": 0.1, "saturation": 2.5},
     "solver.dynamic.height": {"dead_band": 1e-6, "saturation": 5e-4},
+    "solver.dynamic.settle": {"remaining_travel": 1e-9},
 }
 
 

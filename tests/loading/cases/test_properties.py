@@ -80,6 +80,7 @@ def test_mirrored_sideways(make: Make) -> None:
 
 
 def test_mirrored_along(make: Make) -> None:
+    """Up to what meshes, which begin at the fixed points of wires, do not mirror."""
     spans = (60.0, 50.0, 65.0)
     ends = [
         {
@@ -94,8 +95,8 @@ def test_mirrored_along(make: Make) -> None:
     back = {"temperature": {"change": 30.0}, "broken_droppers": [{"span": 2, "number": 4}]}
     there = one.under(**hot, push=push)
     again = other.under(**back, push=[{"chainage": 155.0, "force": 120.0}])
-    np.testing.assert_allclose(there.state.droppers.height, again.state.droppers.height[::-1], atol=1e-6)
-    np.testing.assert_allclose(there.pushed.uplift, again.pushed.uplift, atol=1e-6)
+    np.testing.assert_allclose(there.state.droppers.height, again.state.droppers.height[::-1], atol=5e-5)
+    np.testing.assert_allclose(there.pushed.uplift, again.pushed.uplift, atol=5e-5)
     other_push = other.under(**back, push=push)
     assert np.abs(there.state.droppers.height - other_push.state.droppers.height[::-1]).max() > 1e-3
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Final, Literal
 
 import numpy as np
@@ -140,7 +141,9 @@ def _anchors(line: Line) -> Iterator[LaidWire]:
 
 
 def _tied_wire(line: Line, name: str, role: Role, conductor: str, force: float) -> LaidWire:
-    law = _law(line.solver.dynamic.messenger_tension)
+    """Return a tied wire; its control has the messenger's dead band in the proportion of their tensions."""
+    law, share = _law(line.solver.dynamic.messenger_tension), force / line.messenger_wire.tension.on_wire
+    law = replace(law, e0=law.e0 * share, e1=law.e1 * share)
     return LaidWire(
         name=name,
         role=role,
