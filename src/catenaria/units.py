@@ -261,7 +261,6 @@ ACCELERATION: Final = Dimension("an acceleration", "m/s^2", "9.81 m/s^2")
 TIME: Final = Dimension("a time", "s", "5 s")
 FREQUENCY: Final = Dimension("a rate", "1/s", "0.02 1/s")
 SLOPE: Final = Dimension("a slope", "", "5 mm/m")
-CELSIUS: Final = Dimension("a temperature", "degC", "15 degC")
 
 Length = Annotated[float, QuantityType(LENGTH)]
 NonNegativeLength = Annotated[float, QuantityType(LENGTH, "non-negative")]
@@ -280,4 +279,3 @@ NonNegativeTime = Annotated[float, QuantityType(TIME, "non-negative")]
 PositiveTime = Annotated[float, QuantityType(TIME, "positive")]
 NonNegativeFrequency = Annotated[float, QuantityType(FREQUENCY, "non-negative")]
 Slope = Annotated[float, QuantityType(SLOPE)]
-CelsiusTemperature = Annotated[float, QuantityType(CELSIUS)]

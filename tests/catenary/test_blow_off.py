@@ -18,12 +18,14 @@ SPANS = [
 
 
 def check_course(span: BlownSpan, curvature: float) -> None:
-    """H y'' = -q' relative to a straight, and the track bends away by its curvature; ends are at the staggers."""
+    """H y'' = -q' in a straight, and the track bends away by its curvature; ends stay where they are."""
     x = np.linspace(0.0, span.length, 7)
     h = 0.01
     bend = (span.lateral(x + h) - 2.0 * span.lateral(x) + span.lateral(x - h)) / h**2
     np.testing.assert_allclose(bend, -span.load / span.tension - curvature, rtol=1e-6)
-    np.testing.assert_allclose(span.lateral([0.0, span.length]), [span.stagger_start, span.stagger_end], atol=1e-15)
+    np.testing.assert_allclose(
+        span.lateral([0.0, span.length]), [span.stagger_start, span.stagger_end], atol=1e-15
+    )
 
 
 @pytest.mark.parametrize("span", SPANS)
@@ -44,7 +46,7 @@ def test_furthest_is_the_largest_of_many_points(span: BlownSpan) -> None:
 
 
 def test_printed_formula() -> None:
-    """q' a^2/(8 H) + (b1 + b2)/2 + H (b1 - b2)^2/(2 q' a^2), inside if |b2 - b1| < q' a^2/(2 H)."""
+    """The vertex is at q' a^2/(8 H) + (b1 + b2)/2 + H (b1 - b2)^2/(2 q' a^2)."""
     a, b1, b2, q, H = 60.0, 0.2, -0.1, 8.0, 12e3
     printed = q * a**2 / (8.0 * H) + (b1 + b2) / 2.0 + H * (b1 - b2) ** 2 / (2.0 * q * a**2)
     assert abs(b2 - b1) < q * a**2 / (2.0 * H)
@@ -54,4 +56,6 @@ def test_printed_formula() -> None:
 
 def test_without_wind_a_support_is_furthest() -> None:
     assert BlownSpan(60.0, 0.1, -0.3, 0.0, 12e3).furthest == pytest.approx((60.0, -0.3))
-    assert BlownSpan(60.0, 0.3, -0.1, 0.1, 12e3).furthest == pytest.approx((0.0, 0.3))  # the vertex is outside
+    assert BlownSpan(60.0, 0.3, -0.1, 0.1, 12e3).furthest == pytest.approx(
+        (0.0, 0.3)
+    )  # the vertex is outside

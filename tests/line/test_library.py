@@ -241,3 +241,23 @@ def test_sources_say_what_is_computed_and_what_is_assumed(source: str) -> None:
     assert "computed" in source
     assert "Young's modulus" in source
     assert "Thermal expansion" in source
+
+
+@pytest.mark.parametrize(("name", "entry"), STRANDED)
+def test_strands_are_as_wide_as_their_outermost_wires(name: str, entry: Entry) -> None:
+    assert entry.wire_diameter_mm is not None
+    outermost = max(radius for radius, _ in wire_places(entry.wires))
+    across = (2.0 * outermost + 1.0) * entry.wire_diameter_mm * 1e-3
+    assert conductor_named(name).outer_diameter == pytest.approx(across, rel=1e-14)
+    unstated = conductor_named(name).model_copy(update={"diameter": None})
+    assert unstated.outer_diameter == pytest.approx(across, rel=0.02)  # what is taken if none is given
+
+
+@pytest.mark.parametrize(
+    ("area", "diameter"), [(80, 10.6), (100, 12.0), (107, 12.3), (120, 13.2), (150, 14.8)]
+)
+def test_contact_wires_have_the_diameter_of_the_standard(area: int, diameter: float) -> None:
+    for material in ALLOYS:
+        assert conductor_named(f"AC-{area} {material}").outer_diameter == pytest.approx(1e-3 * diameter)
+    solid = 2.0 * sqrt(area * 1e-6 / pi)
+    assert 1.0 < 1e-3 * diameter / solid < 1.08  # wider than without grooves

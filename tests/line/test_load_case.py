@@ -55,7 +55,8 @@ HEAD = "format: 1\ncases:\n  one:\n    "
         ("temperature: {actual: 300 K}", "temperature.actual", 'for example "15 degC"'),
         ("temperature: {}", "temperature.change", "one of change and actual"),
         ("temperature: {change: 40 K, actual: 3 degC}", "temperature.actual", "this or change, not both"),
-        ("wind: {speed: -3 m/s}", "wind.speed", "not negative"),
+        ("wind: {speed: -3 m/s}", "wind.speed", "0 to 150 m/s"),
+        ("temperature: {change: 400 K}", "temperature.change", "-200 to 200 K"),
         ("wind: {speed: 3 m/s, drag: 0}", "wind.drag", "more than 0"),
         ("wind: {speed: 3 m/s, direction: 3 m}", "wind.direction", 'an angle, for example "90 deg"'),
         ("wind: {speed: 3 m/s, on: [masts]}", "wind.on[0]", "wires or droppers"),
@@ -71,7 +72,9 @@ HEAD = "format: 1\ncases:\n  one:\n    "
 )
 def test_faults(tmp_path: Path, body: str, field: str, allowed: str) -> None:
     found = faults(tmp_path, HEAD + body + "\n")
-    assert [(line, name) for line, name, _ in found if name == f"cases.one.{field}"] == [(4, f"cases.one.{field}")]
+    assert [(line, name) for line, name, _ in found if name == f"cases.one.{field}"] == [
+        (4, f"cases.one.{field}")
+    ]
     assert any(allowed in text for _, _, text in found)
 
 

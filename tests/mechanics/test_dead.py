@@ -49,7 +49,7 @@ def hung(lay_wire: Lay, solve_statics: Solve, *, dead: bool, scale: float = 1.0)
     load = np.zeros(table.size)
     gravity.add_residual(State.at_rest(table.start), load)
     part = DeadLoads(-scale * load) if dead else gravity
-    system, z = solve_statics(System(table, (cable, hold, part)), table.start)
+    _, z = solve_statics(System(table, (cable, hold, part)), table.start)
     return z[wire.nodes]
 
 
@@ -58,6 +58,4 @@ def test_weight_as_dead_load(lay_wire: Lay, solve_statics: Solve) -> None:
     np.testing.assert_allclose(hung(lay_wire, solve_statics, dead=True), expected, atol=1e-10)
     assert expected[:, 2].min() < -1e-3
     with pytest.raises(AssertionError):
-        np.testing.assert_allclose(
-            hung(lay_wire, solve_statics, dead=True, scale=1.01), expected, atol=1e-6
-        )
+        np.testing.assert_allclose(hung(lay_wire, solve_statics, dead=True, scale=1.01), expected, atol=1e-6)

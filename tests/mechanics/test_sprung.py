@@ -13,7 +13,7 @@ from catenaria.mechanics.controls.target import Targets
 from catenaria.mechanics.controls.value import Value
 from catenaria.mechanics.state import State
 
-# Unknowns: tension T [N] and travel p [m] of a bar of stiffness EA/L, which heat makes longer by u: T = EA/L (p - u).
+# Tension T [N] and travel p [m] of a bar of stiffness EA/L that becomes longer by u: T = EA/L (p - u).
 BAR, K, T0 = 2e5, 5e4, 1e4
 TENSION, TRAVEL = np.array([0]), np.array([1])
 DEVICE = Sprung(Value(TENSION), TRAVEL, np.array([K]))

@@ -234,7 +234,7 @@ def test_a_cluster_of_two_workers(scheduler: str, start: Start, lines: Folder, t
 
 
 def test_a_cluster_without_workers_is_refused(scheduler: str, lines: Folder, tmp_path: Path) -> None:
-    with pytest.raises(InconsistentInputError, match="has no workers. Try: dask worker tcp://"):
+    with pytest.raises(InconsistentInputError, match=r"has no workers\. Try: dask worker tcp://"):
         solve_many([lines(1)], tmp_path / "out", scheduler=scheduler)
     assert list((tmp_path / "out").iterdir()) == []
 
@@ -259,7 +259,7 @@ def test_a_cluster_that_is_lost_keeps_what_is_done(
             for process in ending:
                 process.kill()
 
-    with pytest.raises(NotConvergedError, match="scheduler|no workers") as caught:
+    with pytest.raises(NotConvergedError, match=r"scheduler|no workers") as caught:
         solve_many([folder], out, scheduler=address, progress=lose)
     summary = caught.value.partial
     assert summary.count("done") >= 3  # type: ignore[union-attr]

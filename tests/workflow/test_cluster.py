@@ -83,7 +83,8 @@ def test_a_job_that_kills_its_worker_does_not_stop_the_others(workers: Cluster[J
 
 
 def test_linear_algebra_in_workers_has_one_thread(workers: Cluster[Job, Any]) -> None:
-    ((_, environment),) = workers.each([("environment", 0)], 4)
+    environment = dict(workers.each([("environment", 0)], 4))[("environment", 0)]
+    assert isinstance(environment, dict)
     assert set(environment.values()) == {"1"}
 
 

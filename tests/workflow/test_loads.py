@@ -67,7 +67,14 @@ def test_a_study_comes_back_as_it_was(study: LoadStudy, tmp_path: Path) -> None:
 def test_files(study: LoadStudy, tmp_path: Path) -> None:
     files = write_loads(study, tmp_path / "out")
     names = {file.relative_to(tmp_path / "out").as_posix() for file in files}
-    assert {"cases.csv", "result.json", "result.npz", "stroke.png", "wind/lateral.png", "hot/heights.png"} <= names
+    assert {
+        "cases.csv",
+        "result.json",
+        "result.npz",
+        "stroke.png",
+        "wind/lateral.png",
+        "hot/heights.png",
+    } <= names
     assert {"wind/blow_off.csv", "push/pushes.csv", "gap/droppers.csv", "cold/wires.csv"} <= names
     assert not {"hot/blow_off.csv", "hot/pushes.csv", "hot/lateral.png"} & names
     table = rows(tmp_path / "out" / "cases.csv")

@@ -10,6 +10,7 @@ from catenaria import __version__
 from catenaria.cli.batch import batch
 from catenaria.cli.compare import compare
 from catenaria.cli.describe import check, schema
+from catenaria.cli.elasticity import elasticity
 from catenaria.cli.load import load
 from catenaria.cli.network import network
 from catenaria.cli.new import new
@@ -34,6 +35,7 @@ app.command()(compare)
 app.command()(batch)
 app.command()(network)
 app.command()(load)
+app.command()(elasticity)
 app.command()(rounding)
 app.command()(tolerance)
 

@@ -149,9 +149,10 @@ def show_study(study: ToleranceStudy, console: Console) -> None:
         soft_wrap=True,
     )
     if study.model != "linear":
+        share, rms, most = study.event("leaving, linear")[0], study.difference, study.largest_difference
         console.print(
-            f"The linearised line leaves it in {100.0 * study.event('leaving, linear')[0]:.2f} %; heights differ "
-            f"by {1e3 * study.difference:.3f} mm (rms), {1e3 * study.largest_difference:.3f} mm at most.",
+            f"The linearised line leaves it in {100.0 * share:.2f} %; heights differ by {1e3 * rms:.3f} mm "
+            f"(rms), {1e3 * most:.3f} mm at most.",
             soft_wrap=True,
         )
     if study.count_of("no rest"):

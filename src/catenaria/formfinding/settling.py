@@ -68,35 +68,45 @@ def remaining_travel(system: System, controls: Sequence[Controls], t: float, z: 
 
     Notes
     -----
-    Statics linearised at z give the errors' sensitivity to the parameters, de/dp = m_z dz/dp. Controls whose
-    errors are beyond their bands move, the others rest, so the travel solves (de/dp)_AA dp_A = -(e - band)_A
-    on the moving ones.
+    Statics linearised at z: controls whose errors are beyond their bands come to the edge of these, m_z dz =
+    -(e - band), the parameters of the others rest, dp = 0, and everything else stays in balance.
     """
     parameter = np.concatenate([control.parameter for control in controls])
     beyond = np.concatenate([control.law.beyond(control.error(t, z)) for control in controls])
-    moving = np.flatnonzero(beyond)
-    if moving.size == 0:
+    moving = beyond != 0.0
+    if not moving.any():
         return 0.0
-    J = _with_given(system.jacobian(State.at_rest(z, t)), parameter)
-    unit = np.zeros((system.size, moving.size))
-    unit[parameter[moving], np.arange(moving.size)] = 1.0
-    z_p = factorise(J).lu.solve(unit)
-    e_p = np.concatenate([_error_slopes(control, t, z, z_p) for control in controls])
-    return float(np.max(np.abs(np.linalg.solve(e_p[moving], -beyond[moving]))))
+    J = _with_rows(system.jacobian(State.at_rest(z, t)), parameter, moving, controls, t, z)
+    wanted = np.zeros(system.size)
+    wanted[parameter[moving]] = -beyond[moving]
+    return float(np.max(np.abs(factorise(J).solve(wanted)[parameter[moving]])))
 
 
-def _with_given(J: csc_matrix, rows: NDArray[np.int64]) -> csc_matrix:
-    """Return J with the given rows replaced by those of the identity."""
-    given = np.zeros(J.shape[0], dtype=np.bool_)
-    given[rows] = True
-    columns = np.repeat(np.arange(J.shape[0]), np.diff(J.indptr))
-    data = np.where(given[J.indices], (J.indices == columns).astype(np.float64), J.data)
-    return csc_matrix((data, J.indices, J.indptr), shape=J.shape)
-
-
-def _error_slopes(control: Controls, t: float, z: FloatArray, z_p: FloatArray) -> FloatArray:
-    columns, gradient = control.measure.columns(), control.measure.gradient(t, z)
-    return np.einsum("nm,nmk->nk", gradient, z_p[columns])
+def _with_rows(
+    J: csc_matrix,
+    parameter: NDArray[np.int64],
+    moving: NDArray[np.bool_],
+    controls: Sequence[Controls],
+    t: float,
+    z: FloatArray,
+) -> csc_matrix:
+    """Return J with the gradients of what is measured in the rows of moving parameters, 1 in the others'."""
+    replaced = np.zeros(J.shape[0], dtype=np.bool_)
+    replaced[parameter] = True
+    kept = csc_matrix((np.where(replaced[J.indices], 0.0, J.data), J.indices, J.indptr), shape=J.shape)
+    rows, columns, values = [parameter[~moving]], [parameter[~moving]], [np.ones(np.count_nonzero(~moving))]
+    first = 0
+    for control in controls:
+        own = moving[first : first + control.parameter.size]
+        first += control.parameter.size
+        column, gradient = control.measure.columns()[own], control.measure.gradient(t, z)[own]
+        rows.append(np.repeat(control.parameter[own], column.shape[1]))
+        columns.append(column.ravel())
+        values.append(gradient.ravel())
+    entries = np.concatenate(values), (np.concatenate(rows), np.concatenate(columns))
+    total = csc_matrix(kept + csc_matrix(entries, shape=J.shape))
+    total.eliminate_zeros()
+    return total
 
 
 def largest_speed(system: System, zd: FloatArray) -> float:

@@ -46,7 +46,8 @@ def faults_of(problems: Mapping[Path, ErrorDetails], tree: object, source: Sourc
     faults: dict[object, Fault] = {}
     for place, problem in problems.items():
         fault = _fault(place, problem, tree, source)
-        faults.setdefault((fault.line, fault.column, place[-1:], fault.found, fault.allowed), fault)
+        where = (fault.line, fault.column, place[-1:]) if fault.line else place  # a mapping has no lines
+        faults.setdefault((where, fault.found, fault.allowed), fault)
     return tuple(sorted(faults.values(), key=lambda fault: (fault.line, fault.column)))
 
 

@@ -20,6 +20,7 @@ _Clip = Annotated[float, Strict(), Gt(0.0), Le(10.0)]
 _Fraction = Annotated[float, Strict(), Ge(0.0), Le(0.2)]
 _Number = Annotated[int, Strict(), Ge(1)]
 
+_LARGEST = 1.0  # m; what is off by more is no error of installation
 _DISTRIBUTION = "normal, uniform or triangular; the latter two are symmetric about their mean."
 _SCALE = "Standard deviation of a normal distribution, half of the width of the others."
 _CLIP = "Of a normal distribution: how many standard deviations from the mean its tails are cut off."
@@ -50,14 +51,14 @@ class Spread(_Distribution):
     0.002
     """
 
-    scale: NonNegativeLength = Field(description=_SCALE)
-    mean: Length = Field(default=0.0, description="Mean of the errors.")
+    scale: NonNegativeLength = Field(le=_LARGEST, description=_SCALE)
+    mean: Length = Field(default=0.0, ge=-_LARGEST, le=_LARGEST, description="Mean of the errors.")
 
 
 class TensionSpread(_Distribution):
     """How tensions scatter, in newtons or as a fraction of the wanted tension."""
 
-    scale: _NonNegativeForce | None = Field(default=None, description=_SCALE)
+    scale: _NonNegativeForce | None = Field(default=None, le=1e5, description=_SCALE)
     fraction: _Fraction | None = Field(
         default=None, description="The same as a fraction of the wire's tension: this or scale."
     )
@@ -79,9 +80,12 @@ class DropperError(LineModel):
         default="contact wire",
         description="What hangs from it: a contact wire, or the auxiliary messenger of a compound line.",
     )
-    length: Length = Field(default=0.0, description="By how much it is too long.")
+    length: Length = Field(default=0.0, ge=-_LARGEST, le=_LARGEST, description="By how much it is too long.")
     position: Length = Field(
-        default=0.0, description="How far both of its clamps sit along the wires, towards growing chainage."
+        default=0.0,
+        ge=-_LARGEST,
+        le=_LARGEST,
+        description="How far both of its clamps sit along the wires, towards growing chainage.",
     )
 
 
@@ -90,15 +94,27 @@ class SupportError(LineModel):
 
     support: str = Field(description="Name of the support.")
     wire: WireName = Field(default="contact wire", description="Which wire it holds there.")
-    height: Length = Field(default=0.0, description="By how much the place is too high.")
-    stagger: Length = Field(default=0.0, description="How far the place is off to the left.")
+    height: Length = Field(
+        default=0.0, ge=-_LARGEST, le=_LARGEST, description="By how much the place is too high."
+    )
+    stagger: Length = Field(
+        default=0.0, ge=-_LARGEST, le=_LARGEST, description="How far the place is off to the left."
+    )
 
 
 class WireError(LineModel):
     """Known error of the tension of one wire."""
 
     wire: WireName = Field(description="Which wire.")
-    tension: Force = Field(description="By how much its tension is too large.")
+    tension: Force = Field(ge=-1e5, le=1e5, description="By how much its tension is too large.")
+
+
+class KnownErrors(LineModel):
+    """Errors that are known one by one, as from a survey."""
+
+    droppers: tuple[DropperError, ...] = Field(default=(), description="Of single droppers.")
+    supports: tuple[SupportError, ...] = Field(default=(), description="Of single supports.")
+    wires: tuple[WireError, ...] = Field(default=(), description="Of single wires.")
 
 
 class Installation(LineModel):
@@ -127,9 +143,9 @@ class Installation(LineModel):
     tension: TensionSpread | None = Field(
         default=None, description="Tensions of the wires that devices hold taut."
     )
-    droppers: tuple[DropperError, ...] = Field(default=(), description="Known errors of single droppers.")
-    supports: tuple[SupportError, ...] = Field(default=(), description="Known errors of single supports.")
-    wires: tuple[WireError, ...] = Field(default=(), description="Known errors of single wires.")
+    known: KnownErrors = Field(
+        default=KnownErrors(), description="Errors that are known; those above scatter about them."
+    )
     seed: Annotated[int, Strict(), Ge(0)] = Field(
         default=1, description="Seed of the random numbers: the same seed gives the same samples."
     )

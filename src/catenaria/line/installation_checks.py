@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
 from catenaria.line.base import Path, Problem, closest
-from catenaria.line.installation import DropperError, Installation
+from catenaria.line.installation import DropperError, Installation, KnownErrors
 
 if TYPE_CHECKING:
     from catenaria.line.line import Line
@@ -14,23 +14,25 @@ if TYPE_CHECKING:
 
 def installation_problems(installation: Installation, line: Line) -> Iterator[Problem]:
     """Find known errors of droppers, supports and wires that the line does not have."""
-    for i, dropper in enumerate(installation.droppers):
-        yield from _unknown_dropper(("droppers", i), dropper, line)
+    known = installation.known
+    for i, dropper in enumerate(known.droppers):
+        yield from _unknown_dropper(("known", "droppers", i), dropper, line)
     names = [support.name for support in line.supports]
-    for i, error in enumerate(installation.supports):
-        path = ("supports", i)
+    for i, error in enumerate(known.supports):
+        path = ("known", "supports", i)
         if error.support not in names:
             meant = closest(error.support, names)
             yield Problem((*path, "support"), error.support, f"one of {', '.join(names)}{meant}")
         elif error.wire not in _held(line, names.index(error.support)):
             yield Problem((*path, "wire"), error.wire, f"a wire that {error.support} holds")
-    for i, error in enumerate(installation.wires):
+    for i, error in enumerate(known.wires):
         if error.wire not in _wires(line):
-            yield Problem(("wires", i, "wire"), error.wire, f"one of the wires: {', '.join(_wires(line))}")
+            allowed = f"one of the wires: {', '.join(_wires(line))}"
+            yield Problem(("known", "wires", i, "wire"), error.wire, allowed)
         elif not _has_device(line, error.wire):
             allowed = "a wire with a tensioning device; a fixed termination keeps no tension"
-            yield Problem(("wires", i, "wire"), error.wire, allowed)
-    yield from _twice(installation)
+            yield Problem(("known", "wires", i, "wire"), error.wire, allowed)
+    yield from _twice(known)
 
 
 def _unknown_dropper(path: Path, error: DropperError, line: Line) -> Iterator[Problem]:
@@ -71,17 +73,17 @@ def _has_device(line: Line, name: str) -> bool:
     return wire is not None and wire.tension.device.kind != "fixed"
 
 
-def _twice(installation: Installation) -> Iterator[Problem]:
+def _twice(known: KnownErrors) -> Iterator[Problem]:
     """Find what is listed twice: which of the two errors holds would be a guess."""
     keys: dict[str, Iterable[tuple[object, ...]]] = {
-        "droppers": [(d.carries, d.span, d.dropper) for d in installation.droppers],
-        "supports": [(s.support, s.wire) for s in installation.supports],
-        "wires": [(w.wire,) for w in installation.wires],
+        "droppers": [(d.carries, d.span, d.dropper) for d in known.droppers],
+        "supports": [(s.support, s.wire) for s in known.supports],
+        "wires": [(w.wire,) for w in known.wires],
     }
     for name, listed in keys.items():
         seen: set[object] = set()
         for i, key in enumerate(listed):
             if key in seen:
                 found = " ".join(str(part) for part in key)
-                yield Problem((name, i), found, "each of them once")
+                yield Problem(("known", name, i), found, "each of them once")
             seen.add(key)

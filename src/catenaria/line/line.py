@@ -17,6 +17,7 @@ from catenaria.line.conductors import from_library
 from catenaria.line.dropper import DropperKind
 from catenaria.line.installation import Installation
 from catenaria.line.library import conductor_named
+from catenaria.line.load_units import CelsiusTemperature
 from catenaria.line.plane import beyond_plane
 from catenaria.line.point_mass import PointMass
 from catenaria.line.profile import between, held_heights, wanted_heights
@@ -27,7 +28,7 @@ from catenaria.line.support import Support
 from catenaria.line.tied_wire import MidPoint, StitchWire
 from catenaria.line.track import Track
 from catenaria.line.wire import SecondContactWire, Wire
-from catenaria.units import CelsiusTemperature, Length, PositiveAcceleration
+from catenaria.units import Length, PositiveAcceleration
 
 
 class Line(LineModel):
@@ -41,7 +42,8 @@ class Line(LineModel):
     description: str = Field(default="", description="Whatever a reader should know.")
     gravity: PositiveAcceleration = Field(default=9.80665, description="Acceleration of gravity.")
     reference_temperature: CelsiusTemperature = Field(
-        default=15.0, description="Temperature at which the line has the wanted heights, for load cases."
+        default=15.0,
+        description="Temperature at which the line has the wanted heights, for load cases.",
     )
     conductors: dict[str, Conductor] = Field(
         default_factory=dict[str, Conductor],

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+from collections.abc import Mapping
 from pathlib import Path as FilePath
 from typing import Any, TypeVar, cast
 
@@ -14,6 +15,7 @@ from catenaria.line.base import LineModel, Path
 from catenaria.line.faults import faults_of, place_of, value_at
 from catenaria.line.line import Line
 from catenaria.line.reading import read_tree
+from catenaria.line.source import Source
 from catenaria.units import UNKNOWN
 
 Model = TypeVar("Model", bound=LineModel)
@@ -63,13 +65,49 @@ def load_model(path: str | FilePath, model: type[Model]) -> Model:
         With one `Fault` for each thing that is wrong, in the order of the file.
     """
     tree, source = read_tree(FilePath(path))
+    return _checked(tree, model, source)
+
+
+def model_from(fields: Mapping[str, object], model: type[Model], name: str = "mapping") -> Model:
+    """Check what would stand in a file, given as a mapping.
+
+    Parameters
+    ----------
+    fields : mapping of str to object
+        Dictionaries, lists, texts and numbers, as a file would hold them.
+    model : type
+        What they describe.
+    name : str
+        What faults call the mapping.
+
+    Returns
+    -------
+    Model
+        With every quantity in SI.
+
+    Raises
+    ------
+    LineFileError
+        With one `Fault` for each thing that is wrong, without lines and columns.
+
+    Examples
+    --------
+    >>> from catenaria.line.tension import Tension
+    >>> model_from({"force": "15 kN"}, Tension).force
+    15000.0
+    """
+    return _checked(dict(fields), model, Source(name))
+
+
+def _checked(tree: object, model: type[Model], source: Source) -> Model:
     try:
         return model.model_validate(tree, context=source)
     except ValidationError as error:
         problems = _all_problems(model, tree, error)
     if model is Line and _is_structure(tree):
         raise UnsupportedError(
-            f"{path} describes a free structure, not a line: catenaria.workflow.solve_structure solves it"
+            f"{source.file} describes a free structure, not a line: "
+            "catenaria.workflow.solve_structure solves it"
         )
     raise LineFileError(faults_of(problems, tree, source))
 

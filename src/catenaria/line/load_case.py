@@ -13,9 +13,9 @@ from pydantic_core import PydanticCustomError
 
 from catenaria.line.base import LineModel, Problem, exactly_one, refuse
 from catenaria.line.load import load_model
-from catenaria.line.load_units import Angle, Force, LoadPerLength, Speed, Warming
+from catenaria.line.load_units import Angle, CelsiusTemperature, Force, LoadPerLength, Speed, Warming
 from catenaria.line.source import Source
-from catenaria.units import CelsiusTemperature, Length, NonNegativeLength, PositiveDensity
+from catenaria.units import Length, NonNegativeLength, PositiveDensity
 
 _NAME: Final = re.compile(r"[\w][\w .+-]*")
 
@@ -26,10 +26,12 @@ class TemperatureLoad(LineModel):
     model_config = ConfigDict(json_schema_extra=exactly_one("change", "actual"))
 
     change: Warming | None = Field(
-        default=None, description="Change of temperature, negative if colder. Give this or actual."
+        default=None,
+        description="Change of temperature, negative if colder. Give this or actual.",
     )
     actual: CelsiusTemperature | None = Field(
-        default=None, description="Temperature of wires and droppers. Give this or change."
+        default=None,
+        description="Temperature of wires and droppers. Give this or change.",
     )
 
     @model_validator(mode="after")

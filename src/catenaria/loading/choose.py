@@ -86,7 +86,8 @@ class Adjustable:
 
     def best_tolerance(self, at_most: int) -> Choice | None:
         """Return the choice of so many droppers whose largest deviation is least, or None if forces forbid all."""
-        return self._solve("tolerance", math.inf, at_most)
+        fits = bool((self.pull >= self.least_pull).all())  # so that it is no worse than no change at all
+        return self._solve("tolerance", float(np.abs(self.deviation).max()) if fits else math.inf, at_most)
 
     @property
     def count(self) -> int:
@@ -106,17 +107,17 @@ class Adjustable:
         the sum of b, or that of e, or the largest e, which is then one number for all, is minimised.
         """
         n, e = self.count, 0 if goal == "fewest" else 1 if goal == "tolerance" else self.deviation.size
-        steps = math.floor(self.largest / self.step * (1.0 + 1e-9))
+        low, high = self._steps(tolerance)
         cost = np.concatenate((np.zeros(n), np.full(n, float(goal == "fewest")), np.ones(e)))
-        upper = np.concatenate((np.full(n, float(steps)), np.ones(n), np.full(e, np.inf)))
-        lower = np.concatenate((np.full(n, -float(steps)), np.zeros(n + e)))
+        lower = np.concatenate((low, np.zeros(n + e)))
+        upper = np.concatenate((high, np.ones(n), np.full(e, np.inf)))
         answer = cast(
             Any,
             milp(
                 cost,
                 integrality=np.concatenate((np.ones(2 * n), np.zeros(e))),
                 bounds=Bounds(lower, upper),
-                constraints=[*self._limits(goal, tolerance, e), *self._count(steps, at_most, e)],
+                constraints=[*self._limits(goal, tolerance, e), *self._count(low, high, at_most, e)],
                 options={"time_limit": SECONDS, "mip_rel_gap": 0.0 if goal == "fewest" else 1e-3},
             ),
         )
@@ -148,12 +149,31 @@ class Adjustable:
         below = LinearConstraint(block_array([[height, none, band]]), -off, np.inf)
         return [forces, above, below] + ([within] if np.isfinite(tolerance) else [])
 
-    def _count(self, steps: int, at_most: int, e: int) -> list[LinearConstraint]:
+    def _steps(self, tolerance: float) -> tuple[FloatArray, FloatArray]:
+        r"""Return the least and the greatest number of steps of each dropper, shape (n,) each.
+
+        Notes
+        -----
+        Where there are as many heights as lengths, k = S^{-1} (d - d_0) / s and every |d| is within the
+        tolerance. So k is within :math:`\tau \sum_j |S^{-1}_{ij}| / s` of its middle, which is mostly far less
+        than K and spares the search most of its branches.
+        """
+        most = math.floor(self.largest / self.step * (1.0 + 1e-9))
+        low, high = np.full(self.count, -float(most)), np.full(self.count, float(most))
+        if np.isfinite(tolerance) and self.deviation.size == self.count:
+            inverse = np.linalg.inv(self.slope) / self.step
+            middle = -inverse @ self.deviation
+            reach = tolerance * np.abs(inverse).sum(axis=1) + 1e-6
+            low = np.clip(np.ceil(middle - reach), -most, most)
+            high = np.clip(np.floor(middle + reach), -most, most)
+        return low, high
+
+    def _count(self, low: FloatArray, high: FloatArray, at_most: int, e: int) -> list[LinearConstraint]:
         """Return that only counted droppers change, and that no more than so many do."""
         n = self.count
-        rest, whole = csr_array((n, e)), diags_array(np.full(n, float(steps)))
-        up = LinearConstraint(block_array([[eye_array(n), -whole, rest]]), -np.inf, 0.0)
-        down = LinearConstraint(block_array([[eye_array(n), whole, rest]]), 0.0, np.inf)
+        rest = csr_array((n, e))
+        up = LinearConstraint(block_array([[eye_array(n), -diags_array(high), rest]]), -np.inf, 0.0)
+        down = LinearConstraint(block_array([[eye_array(n), -diags_array(low), rest]]), 0.0, np.inf)
         number = np.concatenate((np.zeros(n), np.ones(n), np.zeros(e)))
         return [up, down, LinearConstraint(number[None], 0.0, float(at_most))]
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Final
 
 import numpy as np
@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from catenaria.discretise.spatial.loaded import loaded_system
 from catenaria.errors import InconsistentInputError, InfeasibleError, NotConvergedError
+from catenaria.loading.between_nodes import between_nodes
 from catenaria.loading.built_line import BuiltLine
 from catenaria.loading.case import at_rest
 from catenaria.loading.push_points import PushPoints, Stretch, contact_wires, push_points, stretches
@@ -45,6 +46,8 @@ class Wanted:
         Whether each point is solved with all nonlinearities.
     start, end : float, optional
         First and last chainage [m]; by default the first and the last support of the contact wire.
+    elasticity_limit, nonuniformity_limit : tuple of float
+        What elasticity and non-uniformity may be [m/N], [-], if there is a limit.
     """
 
     force: float = 100.0
@@ -52,6 +55,8 @@ class Wanted:
     nonlinear: bool = False
     start: float | None = None
     end: float | None = None
+    elasticity_limit: tuple[float, ...] = ()
+    nonuniformity_limit: tuple[float, ...] = ()
 
 
 def elasticity_of(built: BuiltLine, wanted: Wanted, progress: Listener | None = None) -> ElasticityStudy:
@@ -81,9 +86,11 @@ def elasticity_of(built: BuiltLine, wanted: Wanted, progress: Listener | None = 
     reduced = ReducedLine.of(built)
     points = push_points(built.line, reduced.model, wanted.spacing, wanted.start, wanted.end)
     responses = reduced.respond(points.forces, _part(progress, "linear responses"))
+    lacking = between_nodes(reduced.model, points.wires, points.s)
+    responses = replace(responses, own=responses.own + np.where(responses.own > _HELD, lacking, 0.0))
     pushes = push(reduced, responses, force)
     elasticity, slack, compared = pushes.elasticity, pushes.slack, _none()
-    pushed = Nonlinear(built, reduced, points.forces, pushes, force)
+    pushed = Nonlinear(built, reduced, points.forces, lacking, pushes, force)
     if wanted.nonlinear:
         every = np.arange(points.chainage.size)
         elasticity, slack = pushed.at(every, _part(progress, "nonlinear solutions"))
@@ -106,6 +113,8 @@ class Nonlinear:
         The line, and its linearisation.
     forces : csr_array, shape (n_points, n_unknowns)
         Unit forces.
+    lacking : FloatArray, shape (n_points,)
+        What the mesh takes from elasticities [m/N]; see `between_nodes`.
     pushes : Pushes
         What the linearised line does.
     force : float
@@ -115,6 +124,7 @@ class Nonlinear:
     built: BuiltLine
     reduced: ReducedLine
     forces: Matrix
+    lacking: FloatArray
     pushes: Pushes
     force: float
 
@@ -157,13 +167,12 @@ class Nonlinear:
             loaded = self.built.under(load, model, z, factors)
         except (NotConvergedError, InfeasibleError):
             loaded = at_rest(self.built, model, load)
-        rise = float(load @ (loaded.z - model.unknowns.start)) / self.force
-        return rise / self.force, loaded.dropper_pull <= SLACK
+        elasticity = float(load @ (loaded.z - model.unknowns.start)) / self.force**2
+        lacking = float(self.lacking[i]) if elasticity > _HELD else 0.0
+        return elasticity + lacking, loaded.dropper_pull <= SLACK
 
 
-def _compared(
-    pushed: Nonlinear, points: PushPoints, progress: Callable[[int, int], None] | None
-) -> Compared:
+def _compared(pushed: Nonlinear, points: PushPoints, progress: Callable[[int, int], None] | None) -> Compared:
     """Compare both lines in the first, the middle and the last span, and where most happens."""
     pushes = pushed.pushes
     chosen = {int(np.argmax(pushes.elasticity)): "largest"}
@@ -232,6 +241,8 @@ def _study(
         slack_at_rest=int(reduced.slack.sum()),
         held=tuple(points.place[i].rpartition("support ")[2] for i in at_support),
         compared=compared,
+        elasticity_limit=wanted.elasticity_limit,
+        nonuniformity_limit=wanted.nonuniformity_limit,
         supports=np.array([every[0].start, *(span.end for span in every)]),
         droppers=droppers.frame.chainage[np.isin(droppers.lower, contact_wires(model))],
         inputs=built.result.inputs,

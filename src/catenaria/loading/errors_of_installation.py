@@ -13,6 +13,7 @@ from catenaria.discretise.spatial.layout import Layout
 from catenaria.discretise.spatial.numbering import NONE
 from catenaria.line.installation import Installation, Spread, TensionSpread
 from catenaria.loading.built_line import BuiltLine
+from catenaria.loading.contact import in_role
 from catenaria.loading.distributions import Distributions
 
 FloatArray = NDArray[np.float64]
@@ -37,6 +38,8 @@ GROUPS: Final[tuple[Group, ...]] = (
     "messenger stagger",
     "tension",
 )
+
+_Row = tuple[Group, Spread | None, tuple[str, ...], FloatArray, NDArray[np.bool_] | None]
 
 
 @dataclass(frozen=True)
@@ -104,15 +107,16 @@ def _parts(built: BuiltLine, installation: Installation) -> Iterator[ErrorSource
     droppers, holds = _dropper_names(layout), _hold_names(built)
     length, position = _known_of_droppers(layout, installation)
     height, stagger = _known_of_supports(built, installation)
-    contact = np.array([layout.wires[k].role == "contact wire" for k in layout.holds.wire.tolist()])
-    for group, spread, names, known, own in (
+    contact = in_role(layout, layout.holds.wire, "contact wire")
+    groups: tuple[_Row, ...] = (
         ("dropper length", installation.dropper_length, droppers, length, None),
         ("dropper position", installation.dropper_position, droppers, position, None),
         ("contact height", installation.contact_height, holds, height, contact),
         ("messenger height", installation.messenger_height, holds, height, ~contact),
         ("contact stagger", installation.contact_stagger, holds, stagger, contact),
         ("messenger stagger", installation.messenger_stagger, holds, stagger, ~contact),
-    ):
+    )
+    for group, spread, names, known, own in groups:
         there = np.ones(len(names), dtype=np.bool_) if own is None else own
         scale = np.full(len(names), 0.0 if spread is None else spread.scale)
         yield _sources(group, names, known, scale, spread, there)
@@ -146,7 +150,7 @@ def _tensions(built: BuiltLine, installation: Installation) -> ErrorSources:
     there = np.array(built.devices.moves) & (built.model.pull != NONE)
     wanted = np.array([wire.tension.force for wire in wires])
     known = np.zeros(len(wires))
-    for error in installation.wires:
+    for error in installation.known.wires:
         known[[wire.name == error.wire for wire in wires]] = error.tension
     scale = np.zeros(len(wires))
     if spread is not None:
@@ -156,9 +160,9 @@ def _tensions(built: BuiltLine, installation: Installation) -> ErrorSources:
 
 def _known_of_droppers(layout: Layout, installation: Installation) -> tuple[FloatArray, FloatArray]:
     droppers = layout.droppers
-    upper = np.array([layout.wires[k].role == "auxiliary messenger" for k in droppers.lower.tolist()])
+    upper = in_role(layout, droppers.lower, "auxiliary messenger")
     length, position = np.zeros(upper.size), np.zeros(upper.size)
-    for error in installation.droppers:
+    for error in installation.known.droppers:
         of = (droppers.span == error.span) & (droppers.number == error.dropper)
         own = of & (upper == (error.carries == "auxiliary messenger"))
         length[own], position[own] = error.length, error.position
@@ -168,7 +172,7 @@ def _known_of_droppers(layout: Layout, installation: Installation) -> tuple[Floa
 def _known_of_supports(built: BuiltLine, installation: Installation) -> tuple[FloatArray, FloatArray]:
     names = _hold_names(built)
     height, stagger = np.zeros(len(names)), np.zeros(len(names))
-    for error in installation.supports:
+    for error in installation.known.supports:
         i = names.index(f"{error.wire} at {error.support}")
         height[i], stagger[i] = error.height, error.stagger
     return height, stagger
@@ -176,15 +180,15 @@ def _known_of_supports(built: BuiltLine, installation: Installation) -> tuple[Fl
 
 def _dropper_names(layout: Layout) -> tuple[str, ...]:
     droppers = layout.droppers
-    rows = zip(droppers.span.tolist(), droppers.number.tolist(), droppers.lower.tolist(), strict=True)
-    return tuple(
-        f"{span}/{number}" + (" upper" if layout.wires[k].role == "auxiliary messenger" else "")
-        for span, number, k in rows
-    )
+    upper = in_role(layout, droppers.lower, "auxiliary messenger")
+    rows = zip(droppers.span.tolist(), droppers.number.tolist(), upper.tolist(), strict=True)
+    return tuple(f"{span}/{number}" + (" upper" if above else "") for span, number, above in rows)
 
 
 def _hold_names(built: BuiltLine) -> tuple[str, ...]:
     holds = built.model.layout.holds
-    rows = zip(holds.wire.tolist(), holds.support.tolist(), strict=True)
     wires, supports = built.model.layout.wires, built.line.supports
-    return tuple(f"{wires[k].name} at {supports[i].name}" for k, i in rows)
+    return tuple(
+        f"{wires[int(k)].name} at {supports[int(i)].name}"
+        for k, i in zip(holds.wire, holds.support, strict=True)
+    )

@@ -48,6 +48,10 @@ class PushPoints:
         Index of the stretch; a support belongs to the span that it begins.
     place : tuple of str
         ``support S3``, ``dropper 2``, ``mid span``, two of them with a comma between, or empty.
+    wires : tuple of int
+        The contact wires.
+    s : tuple of FloatArray, shape (n,)
+        Material coordinates of the points on each of them [m].
     forces : csr_array, shape (n, n_unknowns)
         Generalised unit forces, up across the track, in equal shares on all contact wires.
     """
@@ -55,6 +59,8 @@ class PushPoints:
     chainage: FloatArray
     span: IntArray
     place: tuple[str, ...]
+    wires: tuple[int, ...]
+    s: tuple[FloatArray, ...]
     forces: Matrix
 
 
@@ -95,19 +101,24 @@ def push_points(
         raise InconsistentInputError(f"the spacing is {spacing:g} m; it must be positive")
     if not first <= begin < stop <= last:
         raise InconsistentInputError(
-            f"nothing to push from {begin:g} to {stop:g} m; the contact wire is held from {first:g} to {last:g} m"
+            f"nothing to push from {begin:g} to {stop:g} m; supports hold the contact wire from {first:g} "
+            f"to {last:g} m"
         )
     places = _places(line, model, spans, begin, stop)
     known = np.array(sorted(places), dtype=np.float64)
     even = np.append(np.arange(begin, stop - _SAME, spacing), stop)
     near = np.searchsorted(known, even - _SAME) < np.searchsorted(known, even + _SAME)
     chainage = np.sort(np.concatenate((known, even[~near])))
+    wires = contact_wires(model)
+    s = tuple(material_at(model, k, line.alignment, chainage) for k in wires)
     ends = np.array([span.start for span in spans[1:]], dtype=np.float64)
     return PushPoints(
         chainage=chainage,
         span=np.searchsorted(ends, chainage, side="right").astype(np.int64),
         place=tuple(places.get(x, "") for x in chainage.tolist()),
-        forces=_unit_forces(line, model, chainage),
+        wires=wires,
+        s=s,
+        forces=_unit_forces(model, wires, s, line.alignment.frames(chainage).up),
     )
 
 
@@ -122,7 +133,10 @@ def _places(
     named = [
         *((span.middle, "mid span") for span in spans),
         *((float(x), f"dropper {int(number)}") for x, number in hung),
-        *((float(holds.frame.chainage[i]), f"support {line.supports[int(holds.support[i])].name}") for i in held),
+        *(
+            (float(holds.frame.chainage[i]), f"support {line.supports[int(holds.support[i])].name}")
+            for i in held
+        ),
     ]
     places: dict[float, str] = {}
     for x, name in sorted(pair for pair in named if begin - _SAME <= pair[0] <= stop + _SAME):
@@ -132,19 +146,19 @@ def _places(
     return places
 
 
-def contact_wires(model: SpatialModel) -> list[int]:
+def contact_wires(model: SpatialModel) -> tuple[int, ...]:
     """Return the indices of the contact wires."""
-    return [k for k, wire in enumerate(model.layout.wires) if wire.role == "contact wire"]
+    return tuple(k for k, wire in enumerate(model.layout.wires) if wire.role == "contact wire")
 
 
-def _unit_forces(line: Line, model: SpatialModel, chainage: FloatArray) -> Matrix:
-    wires, up = contact_wires(model), line.alignment.frames(chainage).up
-    shape = (chainage.size, model.unknowns.size)
+def _unit_forces(
+    model: SpatialModel, wires: tuple[int, ...], s: tuple[FloatArray, ...], up: FloatArray
+) -> Matrix:
+    shape = (up.shape[0], model.unknowns.size)
     forces: Matrix = csr_array(shape)
-    for k in wires:
-        s = material_at(model, k, line.alignment, chainage)
-        point = model.wires[k].evaluate(model.unknowns.start, s)
+    for k, at in zip(wires, s, strict=True):
+        point = model.wires[k].evaluate(model.unknowns.start, at)
         value = point.N[:, :, None] * up[:, None, :] / len(wires)
-        row = np.broadcast_to(np.arange(chainage.size)[:, None, None], value.shape)
+        row = np.broadcast_to(np.arange(at.size)[:, None, None], value.shape)
         forces = forces + csr_array((value.ravel(), (row.ravel(), point.dofs.ravel())), shape=shape)
     return forces

@@ -4,18 +4,18 @@ Everything but the droppers' decision to pull or to hang slack is linearised abo
 
 Notes
 -----
-At rest F(z) = 0, with the rows C of the droppers' elongation, see `Bars`. A force F_p along b and droppers that
-are shorter between their clamps than they are by gaps y >= 0 (which is slack) move the line by
+At rest F(z) = 0, with the rows C of the elongations of droppers, see `Bars`. A force F_p along b, and clamps
+that are nearer to each other than their droppers are long, by gaps y >= 0, move the line by
 
 .. math:: \delta z = J^{-1}(F_p b - E (y - y_0)),
 
-where J is the Jacobian with all droppers taut, the columns of E are the unit vectors of the rows C, and y_0 are
-the gaps at rest. With pulls P = l0 q (q: force density, l0: unstressed length),
+where J is the Jacobian with all droppers taut, the columns of E are the unit vectors of the rows C, and y_0
+are the gaps at rest. With pulls P = l0 q (q: force density, l0: unstressed length),
 
 .. math:: P = P_0 + F_p\, g + M (y - y_0), \quad y \ge 0, \quad P \ge 0, \quad y^T P = 0,
 
-which is a linear complementarity problem of the size of the number of droppers (Cottle, Pang & Stone 1992, The
-Linear Complementarity Problem), whatever the line's number of unknowns.
+which is a linear complementarity problem (Cottle, Pang & Stone 1992, The Linear Complementarity Problem)
+of the size of the number of droppers, whatever the line's number of unknowns.
 """
 
 from __future__ import annotations

@@ -11,6 +11,7 @@ from catenaria.discretise.spatial.loaded import with_dropper_lengths
 from catenaria.errors import InconsistentInputError
 from catenaria.line import Line
 from catenaria.loading.built_line import BuiltLine
+from catenaria.loading.contact import in_role
 from catenaria.results.form import FormResult
 from catenaria.results.rounding import RoundedLine, RoundingStudy
 
@@ -54,7 +55,7 @@ def round_droppers(line: Line, result: FormResult, steps: Sequence[float]) -> Ro
         droppers.span,
         droppers.number,
         droppers.frame.chainage,
-        np.array([layout.wires[k].role == "contact wire" for k in droppers.lower.tolist()]),
+        in_role(layout, droppers.lower, "contact wire"),
         result.droppers.cut_length,
         droppers.height,
         dict(zip((support.name for support in line.supports), line.support_x, strict=True)),

@@ -94,13 +94,13 @@ def _elasticity(installed: InstalledLine, response: FloatArray) -> tuple[FloatAr
     b, u, w = _unit_forces(installed)
     slope = np.empty((u.shape[1], response.shape[1]))
     for j, (way, dual) in enumerate(zip(u.T, w.T, strict=True)):
-        J1, J0 = problem.jacobian(z + way), problem.jacobian(z - way)
-        slope[j] = -0.5 * ((J1.T @ dual - J0.T @ dual) @ response)
+        above, below = problem.jacobian(z + way), problem.jacobian(z - way)
+        slope[j] = -0.5 * ((above.T @ dual - below.T @ dual) @ response)
     for k in np.flatnonzero(installed.moves_hinge).tolist():
         p = np.zeros(response.shape[1])
         p[k] = step = _STEP["m"]
-        J1, J0 = (installed.problem_with(way * p).jacobian(z) for way in (1.0, -1.0))
-        slope[:, k] -= np.einsum("nj,nj->j", w, J1 @ u - J0 @ u) / (2.0 * step)
+        above, below = (installed.problem_with(way * p).jacobian(z) for way in (1.0, -1.0))
+        slope[:, k] -= np.einsum("nj,nj->j", w, above @ u - below @ u) / (2.0 * step)
     return np.einsum("jn,nj->j", b, u), slope
 
 

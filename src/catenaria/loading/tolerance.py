@@ -13,6 +13,7 @@ from catenaria.errors import InconsistentInputError, InfeasibleError
 from catenaria.line import Line
 from catenaria.line.installation import Installation
 from catenaria.loading.built_line import BuiltLine
+from catenaria.loading.contact import in_role
 from catenaria.loading.errors_of_installation import error_sources
 from catenaria.loading.importance import (
     confidence_limits,
@@ -99,7 +100,7 @@ def study_tolerances(
         outputs = linear
     else:
         outputs = solve_samples(line, result, installation, options.samples, options.workers, tell)
-    rests = np.isfinite(outputs).all(axis=1)
+    rests = np.isfinite(outputs[:, 0])  # where there is no rest, nothing is known
     if not rests.any():
         raise InfeasibleError("not one sample came to rest: the errors of installation are too large")
     samples = _Samples(installed, linearised, options, errors, linear, outputs, rests)
@@ -133,7 +134,7 @@ class _Samples:
     @property
     def _contact(self) -> Mask:
         layout = self.installed.model.layout
-        return np.array([layout.wires[k].role == "contact wire" for k in layout.droppers.lower.tolist()])
+        return in_role(layout, layout.droppers.lower, "contact wire")
 
     def study(self, installation: Installation) -> ToleranceStudy:
         layout, line, options = self.installed.model.layout, self.installed.built.line, self.options
@@ -145,7 +146,7 @@ class _Samples:
         gone = self.outputs[self.rests, :n] - self.linear[self.rests, :n]
         spans = tuple(f"span {i + 1}" for i in range(len(line.spans)))
         elasticities = self.linearised.elasticities(self.errors)
-        wires = [layout.wires[k].name for k in self.installed.untied.tolist()]
+        wires = [wire.name for wire in layout.wires if not wire.tied]
         ends = tuple(f"{wire}, {end}" for wire in wires for end in ("start", "end"))
         limit = options.tolerance
         return ToleranceStudy(
@@ -212,7 +213,8 @@ class _Samples:
         for own in masks:
             contribution = (self.errors[:, own] - mean[own]) @ self.linearised.slope[:n, own].T
             off = self._off(self.linear[:, :n] - contribution)[:, contact]
-            without.append(float(np.mean(off.max(axis=1) > self.options.tolerance)))
+            count = np.count_nonzero(off.max(axis=1) > self.options.tolerance)
+            without.append(count / self.options.samples)
         return Importance(
             sources.groups,
             np.array([np.count_nonzero(own) for own in masks], dtype=np.int64),

@@ -38,8 +38,16 @@ def named_shares(axes: Axes, names: tuple[str, ...], share: FloatArray) -> None:
     at = np.arange(len(names))
     axes.barh(at, 100.0 * share, color=SKY, height=0.7)
     for y, (name, value) in enumerate(zip(names, share.tolist(), strict=True)):
-        text = f"  {name}: {100.0 * value:.3g} %"
-        axes.text(100.0 * value, y, text, va="center", fontsize=INK - 1, color=DARK)
+        text = f"{name}: {100.0 * value:.2g} %"
+        axes.annotate(
+            text,
+            (100.0 * value, y),
+            (12, 0),
+            textcoords="offset points",
+            va="center",
+            fontsize=INK - 1,
+            color=DARK,
+        )
     axes.set_yticks([])
     axes.set_ylim(len(names) - 0.4, -0.6)
 

@@ -77,7 +77,8 @@ def histogram_figure(study: ToleranceStudy) -> Figure:
         f"Samples without rest: {study.count_of('no rest')}; with a slack dropper: {study.count_of('slack')}."
     )
     figure, [[axes]] = style.new_figure("Largest height error of a line", text, [3.4])
-    edges = np.linspace(0.0, 1e3 * max(study.worst.max(), study.tolerance) * 1.001, _BINS + 1)
+    most = 1.001 * max(float(study.worst.max()), study.tolerance)
+    edges: FloatArray = np.linspace(0.0, 1e3 * most, _BINS + 1)
     draw_statistics.histogram(axes, 1e3 * study.worst, edges, f"{study.model} line")
     if study.model != "linear":
         draw_statistics.outline(axes, 1e3 * study.linear_worst, edges, "linearised line")
@@ -99,7 +100,9 @@ def importance_figure(study: ToleranceStudy) -> Figure:
     figure, [[groups], [single]] = style.new_figure("Which errors matter", text, heights)
     draw_statistics.named_shares(groups, of.group, of.share)
     if of.group:
-        draw.points(groups, 100.0 * of.sampled_share, np.arange(len(of.group)), style.DARK, "from samples")
+        draw.points(
+            groups, 100.0 * of.sampled_share, np.arange(float(len(of.group))), style.DARK, "from samples"
+        )
     names = tuple(f"{errors.group[k]}, {errors.name[k]}" for k in order)
     draw_statistics.named_shares(single, names, errors.share[order])
     for axes, title in ((groups, "(a) groups"), (single, "(b) single errors that matter most")):

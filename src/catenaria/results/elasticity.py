@@ -139,6 +139,8 @@ class ElasticityStudy:
         Supports that hold the contact wire so that it cannot rise at all.
     compared : Compared
         The linearised line beside the nonlinear one; empty if all points are nonlinear or the force is 0.
+    elasticity_limit, nonuniformity_limit : tuple of float
+        What `largest` and `nonuniformity` may be [m/N], [-]; empty if there is no limit.
     supports, droppers : FloatArray
         Chainages of the supports of the first contact wire and of all droppers on contact wires [m].
     inputs : dict
@@ -158,9 +160,24 @@ class ElasticityStudy:
     slack_at_rest: int
     held: tuple[str, ...]
     compared: Compared
+    elasticity_limit: tuple[float, ...]
+    nonuniformity_limit: tuple[float, ...]
     supports: FloatArray
     droppers: FloatArray
     inputs: dict[str, Any]
+
+    def broken_limits(self) -> tuple[str, ...]:
+        """Return what is said of limits that are not kept."""
+        said: list[str] = []
+        if any(self.largest > limit for limit in self.elasticity_limit):
+            limit = min(self.elasticity_limit)
+            said.append(
+                f"the elasticity is {1e3 * self.largest:.4g} mm/N; the limit is {1e3 * limit:.4g} mm/N"
+            )
+        if any(self.nonuniformity > limit for limit in self.nonuniformity_limit):
+            u, limit = self.nonuniformity, min(self.nonuniformity_limit)
+            said.append(f"the non-uniformity is {100.0 * u:.3g} %; the limit is {100.0 * limit:.3g} %")
+        return tuple(said)
 
 
 def nonuniformity(largest: FloatArray, smallest: FloatArray) -> FloatArray:

@@ -22,18 +22,22 @@ from numpy.typing import NDArray
 from catenaria.errors import InconsistentInputError
 from catenaria.results.case import LoadStudy
 from catenaria.results.codec import Arrays, decode, encode
+from catenaria.results.elasticity import ElasticityStudy
 from catenaria.results.form import FormResult
 from catenaria.results.rounding import RoundingStudy
 from catenaria.results.structure import StructureForm
 from catenaria.results.tolerance import ToleranceStudy
 
-Stored = FormResult | StructureForm | LoadStudy | RoundingStudy | ToleranceStudy
-Result = TypeVar("Result", FormResult, StructureForm, LoadStudy, RoundingStudy, ToleranceStudy)
+Stored = FormResult | StructureForm | LoadStudy | ElasticityStudy | RoundingStudy | ToleranceStudy
+Result = TypeVar(
+    "Result", FormResult, StructureForm, LoadStudy, ElasticityStudy, RoundingStudy, ToleranceStudy
+)
 
 FORMATS: dict[type, str] = {
     FormResult: "catenaria form-finding result",
     StructureForm: "catenaria structure result",
     LoadStudy: "catenaria load cases",
+    ElasticityStudy: "catenaria elasticity study",
     RoundingStudy: "catenaria rounding study",
     ToleranceStudy: "catenaria tolerance study",
 }

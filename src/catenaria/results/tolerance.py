@@ -45,11 +45,17 @@ class Scatter:
             name,
             nominal,
             samples.mean(axis=0),
-            np.sqrt(samples.var(axis=0, ddof=1)) if samples.shape[0] > 1 else np.zeros(samples.shape[1]),
+            _deviation(samples),
             samples.min(axis=0),
             samples.max(axis=0),
             np.ascontiguousarray(np.percentile(samples, LEVELS, axis=0).T),
         )
+
+
+def _deviation(samples: FloatArray) -> FloatArray:
+    """Return standard deviations of columns; zeros for a single sample."""
+    off = samples - samples.mean(axis=0)
+    return np.sqrt(np.einsum("ni,ni->i", off, off) / max(samples.shape[0] - 1, 1))
 
 
 @dataclass(frozen=True)

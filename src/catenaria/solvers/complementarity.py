@@ -98,7 +98,8 @@ def solve_complementarity(
             wrong = np.arange(w.size) == last
         open_ = open_ ^ wrong
     raise NotConvergedError(
-        f"{max_iterations} pivots have not solved a linear complementarity problem", "a matrix with other signs"
+        f"{max_iterations} pivots have not solved a linear complementarity problem",
+        "a matrix with other signs",
     )
 
 

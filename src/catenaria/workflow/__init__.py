@@ -4,6 +4,7 @@ from catenaria.formfinding.progress import Progress
 from catenaria.workflow.batch import BatchProgress, solve_many
 from catenaria.workflow.batch_table import BatchSummary, Row
 from catenaria.workflow.compare import Compared, compare, write_comparison
+from catenaria.workflow.elasticity import elasticity, write_elasticity
 from catenaria.workflow.loads import under_loads, write_loads
 from catenaria.workflow.methods import METHODS, NEGLECTS
 from catenaria.workflow.rounding import rounding, write_rounding
@@ -27,6 +28,7 @@ __all__ = [
     "Row",
     "ValidatedCase",
     "compare",
+    "elasticity",
     "rounding",
     "solve",
     "solve_many",
@@ -36,6 +38,7 @@ __all__ = [
     "validate",
     "write",
     "write_comparison",
+    "write_elasticity",
     "write_loads",
     "write_network",
     "write_rounding",

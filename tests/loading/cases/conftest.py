@@ -51,7 +51,7 @@ def document(
 ) -> dict[str, Any]:
     """Return a line file's tree; `droppers` are parts of each span, `change` replaces fields of the file.
 
-    Without droppers wires hang alone from chainage 0 on, behind a short span with the one dropper that a line needs.
+    Without droppers wires hang alone from chainage 0 on, behind a short span with the one that a line needs.
     """
     lateral = stagger or (0.0,) * (len(spans) + 1)
     if not droppers:
@@ -84,7 +84,9 @@ def _built(text: str) -> Loaded:
     line = Line.model_validate_json(text)
     result = find_directly(line, None)
     built = BuiltLine.of(line, result)
-    return Loaded(line, result, built, line_state(line, built.at_rest, np.zeros(built.model.length.size, np.bool_)))
+    return Loaded(
+        line, result, built, line_state(line, built.at_rest, np.zeros(built.model.length.size, np.bool_))
+    )
 
 
 @pytest.fixture(scope="session")

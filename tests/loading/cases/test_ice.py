@@ -76,5 +76,7 @@ def test_rings_on_droppers(make: Make) -> None:
     case = line.under(ice={"thickness": 0.01})
     d = line.line.conductor("dropper").outer_diameter
     ring = math.pi * 0.01 * (d + 0.01) * 900.0 * G
-    assert case.dropper_load[2] == pytest.approx(-ring * line.result.droppers.unstressed_length.sum(), rel=1e-9)
+    assert case.dropper_load[2] == pytest.approx(
+        -ring * line.result.droppers.unstressed_length.sum(), rel=1e-9
+    )
     assert not line.under(ice={"messenger_wire": 7.0}).dropper_load.any()

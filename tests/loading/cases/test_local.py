@@ -8,6 +8,8 @@ from typing import Any
 import numpy as np
 import pytest
 
+from catenaria.discretise.spatial.loaded import material_at, point_load
+
 Make = Callable[..., Any]
 
 T, L = 15e3, 60.0
@@ -22,6 +24,19 @@ def test_a_pushed_string(make: Make, a: float) -> None:
     rounded = force / (2.0 * T) * np.sqrt(2.0 / T)
     assert pushed.uplift[0] == pytest.approx(string - rounded, rel=2e-3)
     assert pushed.uplift[0] != pytest.approx(1.01 * string, rel=2e-3)
+
+
+def test_without_nodes_at_the_push_the_wire_would_be_too_stiff(make: Make) -> None:
+    """An element of two metres and more cannot bend as sharply: the uplift is too small by some F h/(16 T)."""
+    line, string = make((L,), ()), 50.0 * 30.0 * 30.0 / (T * L)
+    model = line.built.model
+    s = material_at(model, 0, line.line.alignment, np.array([30.0]))
+    load = point_load(model, 0, s, np.array([[0.0, 0.0, 50.0]]))[0]
+    coarse = line.built.under(load).points(0, s)[0, 2] - line.built.at_rest.points(0, s)[0, 2]
+    fine = line.under(push=[{"chainage": 30.0, "force": 50.0}]).pushed.uplift[0]
+    h = float(model.wires[0].L[model.wires[0].locate(s)][0])
+    assert 0.5 < (string - coarse) / (50.0 * h / (16.0 * T)) < 1.5
+    assert string - fine < 0.1 * (string - coarse)
 
 
 def test_a_push_on_the_messenger(make: Make) -> None:

@@ -8,10 +8,18 @@ from typing import Any
 import numpy as np
 import pytest
 
+from catenaria.discretise.spatial.loaded import loaded_system
+from catenaria.formfinding.static_problem import static_problem
+from catenaria.line.load_case import LoadCase
+from catenaria.loading.case import changed_model, loads_on
+from catenaria.solvers.load_stepping import solve_by_steps
+
 Make = Callable[..., Any]
 
 CURVED = {
-    "track": {"curves": [{"start": -200.0, "length": 900.0, "radius": 800.0, "transition": 50.0, "cant": 0.1}]},
+    "track": {
+        "curves": [{"start": -200.0, "length": 900.0, "radius": 800.0, "transition": 50.0, "cant": 0.1}]
+    },
     "stitch_wire": {"conductor": "dropper", "tension": 2.5e3, "length": 18.0},
 }
 ZERO: list[dict[str, Any]] = [
@@ -103,12 +111,6 @@ def test_mirrored_along(make: Make) -> None:
 
 def test_loads_together_do_not_depend_on_steps(make: Make) -> None:
     """Load stepping, which serves where Newton's method fails, arrives at the same rest."""
-    from catenaria.formfinding.static_problem import static_problem
-    from catenaria.discretise.spatial.loaded import loaded_system
-    from catenaria.line.load_case import LoadCase
-    from catenaria.loading.case import changed_model, loads_on
-    from catenaria.solvers.load_stepping import solve_by_steps
-
     line = make()
     case = LoadCase.model_validate({"temperature": {"change": 35.0}, "wind": {"speed": 30.0}})
     model = changed_model(line.built, case, np.zeros(line.built.model.length.size, np.bool_))

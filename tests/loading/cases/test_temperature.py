@@ -82,7 +82,11 @@ def test_one_device_takes_all_of_it(make: Make) -> None:
 
 def test_a_spring_gives_way(make: Make) -> None:
     spring = {"kind": "spring", "stiffness": 50e3}
-    wire = {"conductor": "contact", "tension": {"force": 15e3, "pulled": "end", "device": spring}, "tail": 3.0}
+    wire = {
+        "conductor": "contact",
+        "tension": {"force": 15e3, "pulled": "end", "device": spring},
+        "tail": 3.0,
+    }
     line = make((60.0,), (), contact_wire=wire)
     was, now = line.before.wires[0], line.under(temperature={"change": 40.0}).state.wires[0]
     stroke = now.travel - was.travel
@@ -107,7 +111,8 @@ def test_droppers_grow_too(make: Make) -> None:
     other = cold.under(temperature={"change": 40.0}).state.droppers.height - cold.before.droppers.height
     grown = ALPHA * 40.0 * line.result.droppers.length
     share = (other - drop) / grown
-    assert np.all(share > 0.0) and np.all(share < 1.2)
+    assert np.all(share > 0.0)
+    assert np.all(share < 1.2)
 
 
 def _without_expansion(line: Any) -> dict[str, Any]:

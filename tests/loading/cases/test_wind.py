@@ -83,7 +83,7 @@ def test_a_single_span_is_a_parabola(make: Make) -> None:
 
 @pytest.mark.parametrize("radius", [None, 1000.0, -1000.0])
 def test_the_textbook_holds_where_wires_do_not_touch(make: Make, radius: float | None) -> None:
-    """In straights and curves, with staggers: contact wires without droppers are what the formula describes."""
+    """In straights and curves, with staggers: contact wires without droppers are what it describes."""
     curve = {"start": -500.0, "length": 1500.0, "radius": radius}
     track = {} if radius is None else {"track": {"curves": [curve]}}
     line = make((60.0, 50.0, 60.0), (), stagger=(0.2, -0.1, 0.2, 0.2), **track)

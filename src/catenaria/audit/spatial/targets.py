@@ -40,7 +40,8 @@ def target_checks(
     for wire in wires:
         yield _lifts(wire)
     half_weight = 0.5 * stated.gravity * kind.conductor.rhoA * droppers.unstressed_length
-    slack = np.where(limp, 0.0, np.maximum(force - pull + half_weight, 0.0))
+    least = 0.0 if kind.may_be_slack else half_weight + 2.0 * force
+    slack = np.maximum(least - pull - force, 0.0)
     yield Check(_GROUP, "droppers, slack or in compression: tension", "N", slack, np.zeros(len(names)), names)
     off = np.maximum(np.abs(droppers.height_error - height), np.abs(droppers.target_height - kind.height))
     yield Check(_GROUP, "stated height errors", "m", off, np.full(off.size, TOLERANCE), names)

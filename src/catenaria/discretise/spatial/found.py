@@ -95,9 +95,10 @@ def found_model(
 
 def _finer(knots: FloatArray, more: FloatArray | None) -> FloatArray:
     """Return knots and further ones between them, unless these lie close to others."""
-    for s in [] if more is None else more.tolist():
+    points: list[float] = [] if more is None else more.tolist()
+    for s in points:
         if knots[0] < s < knots[-1] and np.abs(knots - s).min() > _CLOSE:
-            knots = np.sort(np.append(knots, s))
+            knots = np.sort(np.concatenate((knots, [s])))
     return knots
 
 
