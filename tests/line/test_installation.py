@@ -30,9 +30,7 @@ def faults(tmp_path: Path, line: Line, text: str) -> list[tuple[int, str, str, s
 
 def test_the_example_has_everything_and_fits_the_lines_of_the_examples(line: Line) -> None:
     for name in ("yang2017_three_span", "simple_60m"):
-        found = load_installation(
-            EXAMPLES / "installation_errors.yaml", load_line(EXAMPLES / f"{name}.yaml")
-        )
+        found = load_installation(EXAMPLES / "installation_errors.yaml", load_line(EXAMPLES / f"{name}.yaml"))
         assert found.dropper_length == Spread(distribution="normal", scale=1e-3, clip=2)
         assert found.known.droppers[0].length == 3e-3
         assert found.known.wires[0].tension == -50.0

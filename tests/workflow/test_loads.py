@@ -101,6 +101,24 @@ def test_the_table_of_the_textbook_says_what_its_formula_says(study: LoadStudy) 
     assert not study.cases[1].blow_off.wire
 
 
+GUIDE = Path(__file__).parents[2] / "docs" / "guide" / "load_cases.md"
+
+
+def test_the_example_gives_the_numbers_of_the_guide() -> None:
+    """Blow-off by both formulas and as solved, of the three cases with wind."""
+    examples = EXAMPLE.parent
+    study = under_loads(solve(examples / "simple_60m.yaml", rebuild="none"), examples / "load_cases.yaml")
+    found: list[list[str]] = []
+    for case in study.cases:
+        blown = case.blow_off
+        if blown.wire:
+            i = int(np.argmax(np.abs(blown.solved)))
+            found.append([f"{1e3 * abs(by[i]):.0f} mm" for by in (blown.alone, blown.combined, blown.solved)])
+    table = [line.strip("| ").split(" | ") for line in GUIDE.read_text(encoding="utf-8").splitlines()]
+    assert found == [cells[1:] for cells in table if len(cells) == 4 and cells[-1].endswith(" mm")]
+    assert len(found) == 3
+
+
 def test_only_what_deviates_has_a_plan(study: LoadStudy) -> None:
     assert [deviates(study, case) for case in study.cases] == [False, False, True, False, False]
 

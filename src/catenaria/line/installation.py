@@ -10,17 +10,19 @@ from pydantic import Field, Strict, model_validator
 
 from catenaria.line.base import LineModel, Problem, refuse
 from catenaria.line.point_mass import WireName
-from catenaria.units import FORCE, Length, NonNegativeLength, QuantityType
+from catenaria.units import FORCE, LENGTH, QuantityType
 
 DistributionKind = Literal["normal", "uniform", "triangular"]
 
-Force = Annotated[float, QuantityType(FORCE)]
-_NonNegativeForce = Annotated[float, QuantityType(FORCE, "non-negative")]
+# What is off by more than a metre or 100 kN is no error of installation.
+_Force = Annotated[float, QuantityType(FORCE), Ge(-1e5), Le(1e5)]
+_NonNegativeForce = Annotated[float, QuantityType(FORCE, "non-negative"), Le(1e5)]
+_Length = Annotated[float, QuantityType(LENGTH), Ge(-1.0), Le(1.0)]
+_NonNegativeLength = Annotated[float, QuantityType(LENGTH, "non-negative"), Le(1.0)]
 _Clip = Annotated[float, Strict(), Gt(0.0), Le(10.0)]
 _Fraction = Annotated[float, Strict(), Ge(0.0), Le(0.2)]
 _Number = Annotated[int, Strict(), Ge(1)]
 
-_LARGEST = 1.0  # m; what is off by more is no error of installation
 _DISTRIBUTION = "normal, uniform or triangular; the latter two are symmetric about their mean."
 _SCALE = "Standard deviation of a normal distribution, half of the width of the others."
 _CLIP = "Of a normal distribution: how many standard deviations from the mean its tails are cut off."
@@ -51,14 +53,14 @@ class Spread(_Distribution):
     0.002
     """
 
-    scale: NonNegativeLength = Field(le=_LARGEST, description=_SCALE)
-    mean: Length = Field(default=0.0, ge=-_LARGEST, le=_LARGEST, description="Mean of the errors.")
+    scale: _NonNegativeLength = Field(description=_SCALE)
+    mean: _Length = Field(default=0.0, description="Mean of the errors.")
 
 
 class TensionSpread(_Distribution):
     """How tensions scatter, in newtons or as a fraction of the wanted tension."""
 
-    scale: _NonNegativeForce | None = Field(default=None, le=1e5, description=_SCALE)
+    scale: _NonNegativeForce | None = Field(default=None, description=_SCALE)
     fraction: _Fraction | None = Field(
         default=None, description="The same as a fraction of the wire's tension: this or scale."
     )
@@ -80,11 +82,9 @@ class DropperError(LineModel):
         default="contact wire",
         description="What hangs from it: a contact wire, or the auxiliary messenger of a compound line.",
     )
-    length: Length = Field(default=0.0, ge=-_LARGEST, le=_LARGEST, description="By how much it is too long.")
-    position: Length = Field(
+    length: _Length = Field(default=0.0, description="By how much it is too long.")
+    position: _Length = Field(
         default=0.0,
-        ge=-_LARGEST,
-        le=_LARGEST,
         description="How far both of its clamps sit along the wires, towards growing chainage.",
     )
 
@@ -94,19 +94,15 @@ class SupportError(LineModel):
 
     support: str = Field(description="Name of the support.")
     wire: WireName = Field(default="contact wire", description="Which wire it holds there.")
-    height: Length = Field(
-        default=0.0, ge=-_LARGEST, le=_LARGEST, description="By how much the place is too high."
-    )
-    stagger: Length = Field(
-        default=0.0, ge=-_LARGEST, le=_LARGEST, description="How far the place is off to the left."
-    )
+    height: _Length = Field(default=0.0, description="By how much the place is too high.")
+    stagger: _Length = Field(default=0.0, description="How far the place is off to the left.")
 
 
 class WireError(LineModel):
     """Known error of the tension of one wire."""
 
     wire: WireName = Field(description="Which wire.")
-    tension: Force = Field(ge=-1e5, le=1e5, description="By how much its tension is too large.")
+    tension: _Force = Field(description="By how much its tension is too large.")
 
 
 class KnownErrors(LineModel):

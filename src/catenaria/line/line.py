@@ -17,7 +17,7 @@ from catenaria.line.conductors import from_library
 from catenaria.line.dropper import DropperKind
 from catenaria.line.installation import Installation
 from catenaria.line.library import conductor_named
-from catenaria.line.load_units import CelsiusTemperature
+from catenaria.line.load_units import CelsiusTemperature, TrainSpeed
 from catenaria.line.plane import beyond_plane
 from catenaria.line.point_mass import PointMass
 from catenaria.line.profile import between, held_heights, wanted_heights
@@ -40,6 +40,9 @@ class Line(LineModel):
     format: Literal[1] = Field(description="Version of this file format: 1.")
     name: str = Field(default="", description="A short name, for tables and figures.")
     description: str = Field(default="", description="Whatever a reader should know.")
+    speed: TrainSpeed | None = Field(
+        default=None, description="Speed for which the line is built, by which checks of standards go."
+    )
     gravity: PositiveAcceleration = Field(default=9.80665, description="Acceleration of gravity.")
     reference_temperature: CelsiusTemperature = Field(
         default=15.0,

@@ -1,4 +1,4 @@
-"""Quantities of load cases as they stand in files."""
+"""Quantities of load cases and of trains as they stand in files."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from catenaria.units import Dimension, QuantityType
 CELSIUS: Final = Dimension("a temperature", "degC", "15 degC")
 WARMING: Final = Dimension("a difference of temperatures", "K", "40 K")
 SPEED: Final = Dimension("a speed", "m/s", "26 m/s")
+TRAIN_SPEED: Final = Dimension("a speed of trains", "m/s", "200 km/h")
 ANGLE: Final = Dimension("an angle", "deg", "90 deg")
 LOAD_PER_LENGTH: Final = Dimension("a load per length", "N/m", "3.5 N/m")
 FORCE: Final = Dimension("a force", "N", "200 N")
@@ -32,6 +33,7 @@ def _within(low: float, high: float, unit: str) -> AfterValidator:
 CelsiusTemperature = Annotated[float, QuantityType(CELSIUS), _within(-100.0, 200.0, CELSIUS.unit)]
 Warming = Annotated[float, QuantityType(WARMING), _within(-200.0, 200.0, WARMING.unit)]
 Speed = Annotated[float, QuantityType(SPEED), _within(0.0, 150.0, SPEED.unit)]
+TrainSpeed = Annotated[float, QuantityType(TRAIN_SPEED, "positive"), _within(0.0, 150.0, TRAIN_SPEED.unit)]
 Angle = Annotated[float, QuantityType(ANGLE), _within(-360.0, 360.0, ANGLE.unit)]
 LoadPerLength = Annotated[float, QuantityType(LOAD_PER_LENGTH), _within(0.0, 1e3, LOAD_PER_LENGTH.unit)]
 Force = Annotated[float, QuantityType(FORCE), _within(-1e5, 1e5, FORCE.unit)]

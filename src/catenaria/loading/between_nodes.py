@@ -2,7 +2,7 @@ r"""What a mesh takes from elasticity: under a point force wires bend more sharp
 
 Notes
 -----
-In the energy norm, by Galerkin orthogonality, the elasticity of a mesh is too small by the square of its error.
+By Galerkin orthogonality the elasticity of a mesh is too small by the square of its error in the energy norm.
 That error is where the force is: elements some way off see it as before. So the wire of a few elements on
 either side is taken out, between two hinges, and what it lacks to its closed form is added.
 """

@@ -14,7 +14,7 @@ from catenaria.line.installation import DistributionKind
 FloatArray = NDArray[np.float64]
 
 _CHUNK = 64  # samples that share a stream of random numbers
-_HALF_STEP = 2.0**-54  # numpy's uniform numbers are multiples of 2^-53, 0 among them, 1 not
+_LEAST = 2.0**-54  # numpy's uniform numbers are multiples of 2^-53, 0 among them, 1 not
 _SQRT_TWO_PI = np.sqrt(2.0 * np.pi)
 
 
@@ -90,7 +90,7 @@ class Distributions:
 
     def _chunk(self, seed: int, chunk: int) -> FloatArray:
         rng = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(chunk,)))
-        return self.value(rng.random((_CHUNK, len(self.kind))) + _HALF_STEP)
+        return self.value(np.maximum(rng.random((_CHUNK, len(self.kind))), _LEAST))
 
     @classmethod
     def concatenate(cls, parts: Sequence[Distributions]) -> Distributions:

@@ -4,30 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from catenaria.discretise.spatial.loaded import loaded_system
-from catenaria.errors import InconsistentInputError, InfeasibleError, NotConvergedError
+from catenaria.errors import InconsistentInputError
 from catenaria.loading.between_nodes import between_nodes
 from catenaria.loading.built_line import BuiltLine
-from catenaria.loading.case import at_rest
+from catenaria.loading.nonlinear_pushes import HELD, NonlinearPushes
 from catenaria.loading.push_points import PushPoints, Stretch, contact_wires, push_points, stretches
 from catenaria.loading.read_case import line_state
-from catenaria.loading.reduced import SLACK, Pushes, ReducedLine, push
-from catenaria.mechanics.state import State
+from catenaria.loading.reduced import ReducedLine, push
 from catenaria.results.elasticity import Compared, ElasticityStudy, PushedPoint, SpanElasticity, nonuniformity
-from catenaria.solvers.linear import Factorisation, factorise
 
 FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 Mask = NDArray[np.bool_]
-Matrix = Any  # SciPy's csr_array
 Listener = Callable[[str, int, int], None]
 
-_HELD: Final = 1e-9  # m/N: a support that gives way less holds the wire
 _SAME: Final = 1e-6  # m
 _LONG: Final = ("contact wire", "auxiliary messenger", "messenger wire")
 
@@ -87,10 +81,10 @@ def elasticity_of(built: BuiltLine, wanted: Wanted, progress: Listener | None = 
     points = push_points(built.line, reduced.model, wanted.spacing, wanted.start, wanted.end)
     responses = reduced.respond(points.forces, _part(progress, "linear responses"))
     lacking = between_nodes(reduced.model, points.wires, points.s)
-    responses = replace(responses, own=responses.own + np.where(responses.own > _HELD, lacking, 0.0))
+    responses = replace(responses, own=responses.own + np.where(responses.own > HELD, lacking, 0.0))
     pushes = push(reduced, responses, force)
     elasticity, slack, compared = pushes.elasticity, pushes.slack, _none()
-    pushed = Nonlinear(built, reduced, points.forces, lacking, pushes, force)
+    pushed = NonlinearPushes(built, reduced, points.forces, lacking, pushes, force)
     if wanted.nonlinear:
         every = np.arange(points.chainage.size)
         elasticity, slack = pushed.at(every, _part(progress, "nonlinear solutions"))
@@ -103,76 +97,9 @@ def _part(progress: Listener | None, name: str) -> Callable[[int, int], None] | 
     return None if progress is None else lambda done, count: progress(name, done, count)
 
 
-@dataclass(frozen=True)
-class Nonlinear:
-    """A line that is pushed with all nonlinearities, point by point, from what the linearised one does.
-
-    Attributes
-    ----------
-    built, reduced
-        The line, and its linearisation.
-    forces : csr_array, shape (n_points, n_unknowns)
-        Unit forces.
-    lacking : FloatArray, shape (n_points,)
-        What the mesh takes from elasticities [m/N]; see `between_nodes`.
-    pushes : Pushes
-        What the linearised line does.
-    force : float
-        Size of the force [N].
-    """
-
-    built: BuiltLine
-    reduced: ReducedLine
-    forces: Matrix
-    lacking: FloatArray
-    pushes: Pushes
-    force: float
-
-    def at(
-        self, some: IntArray, progress: Callable[[int, int], None] | None = None
-    ) -> tuple[FloatArray, Mask]:
-        """Return elasticities [m/N] and slack droppers at some points; factors serve while slack stays.
-
-        Raises
-        ------
-        NotConvergedError, InfeasibleError
-            If the line does not come to rest.
-        """
-        elasticity = np.empty(some.size)
-        slack = np.empty((some.size, self.reduced.pull.size), dtype=np.bool_)
-        factors, known = self.reduced.factors, np.zeros(self.reduced.pull.size, dtype=np.bool_)
-        for k, i in enumerate(some.tolist()):
-            z = self.reduced.start(self.forces[[i]], self.force, self.pushes.gap[i])
-            if not np.array_equal(known, self.pushes.slack[i]):
-                factors, known = self._factors(z, self._load(i)), self.pushes.slack[i]
-            elasticity[k], slack[k] = self._solve(i, z, factors)
-            if progress is not None:
-                progress(k + 1, some.size)
-        return elasticity, slack
-
-    def _load(self, i: int) -> FloatArray:
-        load: FloatArray = self.force * self.forces[[i]].toarray()[0]
-        return load
-
-    def _factors(self, z: FloatArray, load: FloatArray) -> Factorisation | None:
-        system = loaded_system(self.reduced.model, z, load, self.built.devices)
-        try:
-            return factorise(system.jacobian(State.at_rest(z)), permc_spec="NATURAL")
-        except np.linalg.LinAlgError:
-            return None
-
-    def _solve(self, i: int, z: FloatArray, factors: Factorisation | None) -> tuple[float, Mask]:
-        model, load = self.reduced.model, self._load(i)
-        try:
-            loaded = self.built.under(load, model, z, factors)
-        except (NotConvergedError, InfeasibleError):
-            loaded = at_rest(self.built, model, load)
-        elasticity = float(load @ (loaded.z - model.unknowns.start)) / self.force**2
-        lacking = float(self.lacking[i]) if elasticity > _HELD else 0.0
-        return elasticity + lacking, loaded.dropper_pull <= SLACK
-
-
-def _compared(pushed: Nonlinear, points: PushPoints, progress: Callable[[int, int], None] | None) -> Compared:
+def _compared(
+    pushed: NonlinearPushes, points: PushPoints, progress: Callable[[int, int], None] | None
+) -> Compared:
     """Compare both lines in the first, the middle and the last span, and where most happens."""
     pushes = pushed.pushes
     chosen = {int(np.argmax(pushes.elasticity)): "largest"}
@@ -220,7 +147,7 @@ def _study(
         start, end = spans.start[spans.inner].min(), spans.end[spans.inner].max()
         counted = (points.chainage >= start) & (points.chainage <= end)
     largest, smallest = elasticity[counted].max(), elasticity[counted].min()
-    at_support = [i for i, place in enumerate(points.place) if "support" in place and elasticity[i] < _HELD]
+    at_support = [i for i, place in enumerate(points.place) if "support" in place and elasticity[i] < HELD]
     return ElasticityStudy(
         line=built.result.name,
         method=built.result.method,

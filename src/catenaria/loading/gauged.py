@@ -33,12 +33,15 @@ class GaugedPoints:
         Indices of their wires.
     s : FloatArray, shape (m,)
         Material coordinates [m].
+    chainage : FloatArray, shape (m,)
+        Where they are along the track [m].
     origin, up : FloatArray, shape (m, 3)
         The middle of the track there [m], and its unit normal.
     """
 
     of: IntArray
     s: FloatArray
+    chainage: FloatArray
     origin: FloatArray
     up: FloatArray
 
@@ -74,11 +77,11 @@ def gauged_points(line: Line, model: SpatialModel, measured: MeasuredHeights) ->
     if faults:
         raise LineFileError(faults)
     places = [find.place(row) for row in measured.rows]
-    of, s, origin, up = zip(*places, strict=True)
-    return GaugedPoints(np.array(of, dtype=np.int64), np.array(s), np.array(origin), np.array(up))
+    of, s, chainage, origin, up = (np.array(field) for field in zip(*places, strict=True))
+    return GaugedPoints(of, s, chainage, origin, up)
 
 
-Place = tuple[int, float, FloatArray, FloatArray]  # as the fields of `GaugedPoints`
+Place = tuple[int, float, float, FloatArray, FloatArray]  # as the fields of `GaugedPoints`
 
 
 @dataclass(frozen=True)
@@ -110,15 +113,15 @@ class _Finder:
         if row.at_dropper:
             i, droppers = self._dropper(row), self.model.layout.droppers
             s = self.model.unknowns.start[self.model.lower_s[i]]
-            return int(droppers.lower[i]), float(s), droppers.frame.origin[i], droppers.frame.up[i]
+            frame, k = droppers.frame, int(droppers.lower[i])
+            return k, float(s), float(frame.chainage[i]), frame.origin[i], frame.up[i]
         k, chainage = self._wires[row.wire or self._names[0]], np.array([row.chainage])
         frame = self.line.alignment.frames(chainage)
         s = material_at(self.model, k, self.line.alignment, chainage)
-        return k, float(s[0]), frame.origin[0], frame.up[0]
+        return k, float(s[0]), row.chainage, frame.origin[0], frame.up[0]
 
     def _found_height(self, row: MeasuredHeight) -> float:
-        k, s, origin, up = self.place(row)
-        point = GaugedPoints(np.array([k]), np.array([s]), origin[None], up[None])
+        point = GaugedPoints(*(np.array([field]) for field in self.place(row)))
         return float(point.height(self.model, self.model.unknowns.start)[0])
 
     @property

@@ -126,17 +126,13 @@ def _places(
     line: Line, model: SpatialModel, spans: tuple[Stretch, ...], begin: float, stop: float
 ) -> dict[float, str]:
     """Return the names of all chainages that have one."""
-    droppers, holds = model.layout.droppers, model.layout.holds
+    droppers = model.layout.droppers
     on_contact = np.isin(droppers.lower, contact_wires(model))
     hung = zip(droppers.frame.chainage[on_contact], droppers.number[on_contact], strict=True)
-    held = np.flatnonzero(holds.wire == 0).tolist()
     named = [
         *((span.middle, "mid span") for span in spans),
         *((float(x), f"dropper {int(number)}") for x, number in hung),
-        *(
-            (float(holds.frame.chainage[i]), f"support {line.supports[int(holds.support[i])].name}")
-            for i in held
-        ),
+        *((x, f"support {support.name}") for x, support in zip(line.support_x, line.supports, strict=True)),
     ]
     places: dict[float, str] = {}
     for x, name in sorted(pair for pair in named if begin - _SAME <= pair[0] <= stop + _SAME):

@@ -54,7 +54,6 @@ def _droppers(line: Line, loaded: LoadedLine, broken: Mask) -> LoadedDroppers:
 
 def _wires(line: Line, loaded: LoadedLine, state: Natural) -> Iterator[LoadedWire]:
     model, z = state.model, state.z
-    forces = np.linalg.norm(loaded.end_force, axis=2)
     for k, (laid, wire) in enumerate(zip(model.layout.wires, state.wires, strict=True)):
         stations = state.stations(k)
 
@@ -69,8 +68,7 @@ def _wires(line: Line, loaded: LoadedLine, state: Natural) -> Iterator[LoadedWir
         yield LoadedWire(
             name=laid.name,
             role=laid.role,
-            force_start=float(forces[k, 0]),
-            force_end=float(forces[k, 1]),
+            end_force=loaded.end_force[k],
             tension_min=float(tension.min()),
             tension_max=float(tension.max()),
             travel=float(loaded.travel[k]),

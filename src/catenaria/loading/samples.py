@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass
 from multiprocessing import get_context
 
@@ -24,6 +25,10 @@ Tell = Callable[[int, int], None]  # how many samples are done, of how many
 
 _MOST_A_TASK = 512  # samples that one task solves, after some milliseconds to set up the line
 _TASKS_A_WORKER = 8
+_ADVICE = (
+    "fewer workers if memory is short; in a script of your own, calls with several workers stand below "
+    "`if __name__ == '__main__':`"
+)
 
 
 @dataclass(frozen=True)
@@ -63,6 +68,11 @@ def solve_samples(
     tell : callable
         Is told how many samples are done, and of how many.
 
+    Raises
+    ------
+    NotConvergedError
+        If a process ends before its work is done.
+
     Notes
     -----
     Every sample starts from the line without errors and from its own random numbers, so that nothing depends
@@ -94,6 +104,8 @@ def _run(tasks: list[Task], workers: int) -> Iterator[tuple[int, FloatArray]]:
             while waiting:
                 for future in wait(waiting, return_when=FIRST_COMPLETED).done:
                     yield waiting.pop(future), future.result()
+        except BrokenProcessPool as error:
+            raise NotConvergedError("A worker process has ended before its work was done", _ADVICE) from error
         finally:
             pool.shutdown(wait=False, cancel_futures=True)
 

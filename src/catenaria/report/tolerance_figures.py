@@ -107,8 +107,8 @@ def importance_figure(study: ToleranceStudy) -> Figure:
     draw_statistics.named_shares(single, names, errors.share[order])
     for axes, title in ((groups, "(a) groups"), (single, "(b) single errors that matter most")):
         style.describe(axes, title, "share of variance [%]", "")
-    draw_statistics.reach(groups, 140.0 * max(1e-3, *of.share, *of.sampled_share))
-    draw_statistics.reach(single, 160.0 * max(1e-3, *errors.share))
+    draw_statistics.reach(groups, 140.0 * max([1e-3, *of.share, *of.sampled_share]))
+    draw_statistics.reach(single, 160.0 * max([1e-3, *errors.share]))
     return figure
 
 

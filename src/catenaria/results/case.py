@@ -55,8 +55,8 @@ class LoadedWire:
     ----------
     name, role : str
         As in `WireForm`.
-    force_start, force_end : float
-        Sizes of the forces of its ends on devices, terminations or other wires [N].
+    end_force : FloatArray, shape (2, 3)
+        Forces of its start and end on devices, terminations or other wires [N].
     tension_min, tension_max : float
         Of the element means of the axial force between its first and its last support [N].
     travel : float
@@ -69,8 +69,7 @@ class LoadedWire:
 
     name: str
     role: str
-    force_start: float
-    force_end: float
+    end_force: FloatArray
     tension_min: float
     tension_max: float
     travel: float
@@ -79,6 +78,16 @@ class LoadedWire:
     lateral: FloatArray
     height: FloatArray
     tension: FloatArray
+
+    @property
+    def force_start(self) -> float:
+        """Size of the force of its start on what holds it [N]."""
+        return float(np.linalg.norm(self.end_force[0]))
+
+    @property
+    def force_end(self) -> float:
+        """Size of the force of its end on what holds it [N]."""
+        return float(np.linalg.norm(self.end_force[1]))
 
 
 @dataclass(frozen=True)

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import asyncio
 import logging
 from collections.abc import Callable, Generator, Iterable, Iterator
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from itertools import islice
 from pathlib import Path
@@ -159,15 +161,26 @@ def remote_cluster(function: Callable[[T], R], scheduler: str, shared: Path) -> 
     _, distributed = _libraries()
     with _quiet():
         try:
+            with ThreadPoolExecutor(1) as aside:  # for the caller may have an event loop of its own
+                aside.submit(asyncio.run, _greet(distributed, scheduler)).result()
             client = distributed.Client(scheduler, timeout=CONNECT, set_as_default=False)
         except (OSError, ValueError, TypeError) as error:
+            reason = str(error) or "it is silent"
             raise InconsistentInputError(
-                f"the scheduler {scheduler} does not answer: {error}. Nothing was solved. Try: "
+                f"the scheduler {scheduler} does not answer: {reason}. Nothing was solved. Try: "
                 "tcp://HOST:PORT as `dask scheduler` prints it when it starts"
             ) from error
         with client:
             _require_fit(client, scheduler, shared)
             yield Cluster(client, function)
+
+
+async def _greet(distributed: Any, scheduler: str) -> None:
+    """Exchange greetings with a scheduler, for which the client would wait without end."""
+    arguments = distributed.Security().get_connection_args("client")
+    greeting = distributed.comm.connect(scheduler, timeout=CONNECT, **arguments)
+    comm = await asyncio.wait_for(greeting, CONNECT + 1.0)
+    await comm.close()
 
 
 def look(shared: str) -> tuple[str, bool]:

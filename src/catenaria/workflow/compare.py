@@ -66,7 +66,8 @@ def compare(
     line : Line or path
         The line, or the file that describes it.
     methods : sequence of str, optional
-        Names; all there are if left out. The direct method, to which all are compared, is always the first.
+        Names; all that solve such lines if left out: for a line beyond the plane, `SPATIAL`. The direct
+        method, to which all are compared, is always the first.
     progress : callable, optional
         Is told the name of the method that begins.
 
@@ -84,12 +85,13 @@ def compare(
     CatenariaError
         If the direct method fails.
     """
-    chosen = tuple(METHODS) if methods is None else (REFERENCE, *methods)
-    for name in chosen:
+    for name in methods or ():
         if name not in METHODS:
             raise UnsupportedError(f"there is no method {name!r}; there is {', '.join(METHODS)}")
     if not isinstance(line, Line):
         line = load_line(line)
+    every = tuple(METHODS) if line.plane else SPATIAL
+    chosen = every if methods is None else (REFERENCE, *methods)
     refuse_for_method(line, REFERENCE, spatial=True)
     warm_up()
     compared: list[Compared] = []

@@ -55,13 +55,6 @@ def elasticity(
         If a file cannot be used, force or points make no sense, or the result has no nodes.
     NotConvergedError, InfeasibleError
         If the line does not come to rest.
-
-    Examples
-    --------
-    >>> from catenaria import workflow
-    >>> study = workflow.elasticity("examples/yang2017_three_span.yaml", force=200.0, spacing=1.0)
-    >>> round(1e3 * float(study.spans.at_middle[1]), 3)  # mm/N
-    0.588
     """
     line, result = found(source)
     wanted = Wanted(

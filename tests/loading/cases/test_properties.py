@@ -120,3 +120,47 @@ def test_loads_together_do_not_depend_on_steps(make: Make) -> None:
     at_once = line.built.under(load, model)
     np.testing.assert_allclose(stepped.root.y, at_once.z, atol=1e-6)
     assert np.abs(at_once.z - z).max() > 0.1
+
+
+def out_of_balance(line: Any, case: Any, *, loaded: bool = True) -> np.ndarray:
+    """Return what is missing in the balance of all forces on the whole line [N].
+
+    Supports and ends bear the weights of wires, droppers and masses, and what the case adds.
+    """
+    model, layout, state = line.built.model, line.built.model.layout, case.state
+    wires = sum(
+        chain.section.rhoA * model.natural_length(model.unknowns.start, k)
+        for k, chain in enumerate(model.wires)
+    )
+    length = line.result.droppers.length  # half of each dropper's weight, as it hangs, is at either clamp
+    moved = case.state.droppers.broken
+    droppers = float(np.sum((layout.droppers.rhoA * length)[~moved]))
+    weight = np.array([0.0, 0.0, -layout.g * (wires + droppers + layout.masses.mass.sum())])
+    applied = case.load.sum(axis=0) + case.dropper_load if loaded else np.zeros(3)
+    up = line.line.alignment.frames(case.pushed.chainage).up
+    pushed = case.pushed.force @ up
+    held = state.supports
+    borne = np.array([held.force_x.sum(), held.force_y.sum(), held.force_z.sum()])
+    borne += sum(wire.end_force.sum(axis=0) for wire in state.wires if wire.role in LONG)
+    return np.asarray(borne - weight - applied - pushed)
+
+
+LONG = ("contact wire", "messenger wire", "auxiliary messenger")
+
+
+@pytest.mark.parametrize("change", [{}, CURVED], ids=["straight", "curved"])
+def test_supports_and_ends_bear_everything(make: Make, change: dict[str, Any]) -> None:
+    """Seen from outside, whatever happens within: all forces on the line are in balance."""
+    line = make(stagger=(0.2, -0.2, 0.2, -0.2), **change)
+    case = line.under(
+        temperature={"change": -20.0},
+        wind={"speed": 25.0, "direction": 60.0},
+        ice={"thickness": 0.005},
+        push=[{"chainage": 75.0, "force": 150.0}],
+        broken_droppers=[{"span": 2, "number": 4}],
+    )
+    assert (
+        np.abs(out_of_balance(line, case)).max() < 0.05
+    )  # droppers have become longer or shorter by some mm
+    assert np.abs(out_of_balance(line, line.under())).max() < 1e-3
+    assert np.abs(out_of_balance(line, case, loaded=False)).min() > 1.0

@@ -130,10 +130,20 @@ def with_dropper_lengths(model: SpatialModel, length: FloatArray) -> SpatialMode
 
 
 def with_moved_supports(model: SpatialModel, shift: FloatArray) -> SpatialModel:
-    """Return a line whose supports and hinges are elsewhere by the given shifts, shape (n_holds, 3) [m]."""
-    holds = model.layout.holds
+    """Return a line whose supports and hinges are elsewhere by the given shifts, shape (n_holds, 3) [m].
+
+    Cantilevers move with their roots.
+    """
+    layout, holds, start = model.layout, model.layout.holds, model.unknowns.start.copy()
+    for part, chain in zip(layout.cantilevers, model.cantilevers, strict=True):
+        start[chain.nodes[:, :3]] += shift[part.hold]
+    roots = tuple(replace(part, root=part.root + shift[part.hold]) for part in layout.cantilevers)
     moved = replace(holds, X=holds.X + shift, hinge=holds.hinge + shift)
-    return replace(model, layout=replace(model.layout, holds=moved))
+    return replace(
+        model,
+        layout=replace(layout, holds=moved, cantilevers=roots),
+        unknowns=replace(model.unknowns, start=start),
+    )
 
 
 def line_load(model: SpatialModel, per_metre: Sequence[FloatArray]) -> FloatArray:

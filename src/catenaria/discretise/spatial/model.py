@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from catenaria.discretise.spatial.guess import Guess, guess
+from catenaria.discretise.spatial.guided_points import guided
 from catenaria.discretise.spatial.held_parts import arms, held_parts
 from catenaria.discretise.spatial.layout import Layout, across
 from catenaria.discretise.spatial.numbering import (
@@ -96,15 +97,15 @@ class SpatialModel(Numbering):
             *self._clamps(z, ramp),
         ]
         bars = self.bars(z, ramp, only_pull=only_pull)
-        guided = self._guided(built=built)
+        taken = guided(self, self.layout, built=built)
         if built:
-            given = np.concatenate([guided.s, self.length, *(x[x != NONE] for x in (self.pull, self.piece))])
+            given = np.concatenate([taken.s, self.length, *(x[x != NONE] for x in (self.pull, self.piece))])
             owned = [part.parameter for part in demands if isinstance(part, Targets)]
             given = np.setdiff1d(given, np.concatenate([np.empty(0, np.int64), *owned]))
             parts.append(Given(given, z[given]))
         else:
-            element = guided.carrier.locate(z[guided.s])
-            parts.append(Guides(guided.carrier, guided.s, element, guided.P, guided.along))
+            element = taken.carrier.locate(z[taken.s])
+            parts.append(Guides(taken.carrier, taken.s, element, taken.P, taken.along))
         every = (*parts, bars, *demands)
         return System(self.unknowns, tuple(every))
 
@@ -228,31 +229,6 @@ class SpatialModel(Numbering):
             on = Strands.on(self.wires, layout.masses.wire)
             element = on.locate(z[self.mass_s])
             yield HungMasses(on, self.mass_s, element, layout.masses.mass, layout.g, ramp)
-
-    def _guided(self, *, built: bool) -> _Guided:
-        """Return all points that are guided across the track, or fixed to their wires in a built line."""
-        layout = self.layout
-        taken = layout.holds.guided
-        if built:
-            taken = taken | (np.array(layout.holds.kind, dtype=np.str_) == "clamped")
-        frames = (layout.droppers.frame, layout.droppers.frame, layout.ties.frame, layout.masses.frame)
-        wires = (layout.droppers.lower, layout.droppers.upper, layout.ties.host, layout.masses.wire)
-        s = (self.lower_s, self.upper_s, self.tie_s, self.mass_s)
-        held = layout.holds.frame.take(taken)
-        return _Guided(
-            Strands.on(self.wires, np.concatenate((*wires, layout.holds.wire[taken]))),
-            np.concatenate((*s, self.hold_s[taken])),
-            np.concatenate([frame.origin for frame in (*frames, held)]),
-            np.concatenate([frame.along for frame in (*frames, held)]),
-        )
-
-
-@dataclass(frozen=True)
-class _Guided:
-    carrier: Strands
-    s: IntArray
-    P: FloatArray
-    along: FloatArray
 
 
 def build_model(layout: Layout, start: Guess, meshes: tuple[FloatArray, ...]) -> SpatialModel:

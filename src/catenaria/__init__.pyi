@@ -1,0 +1,43 @@
+from catenaria.api import (
+    METHODS,
+    CatenariaError,
+    CrossSection,
+    Fault,
+    InconsistentInputError,
+    InfeasibleError,
+    Line,
+    LineFileError,
+    LoadCases,
+    Mesh,
+    NotConvergedError,
+    Result,
+    SingularError,
+    UnsupportedError,
+    load,
+    load_result,
+    solve,
+    vary,
+)
+
+__all__ = [
+    "METHODS",
+    "CatenariaError",
+    "CrossSection",
+    "Fault",
+    "InconsistentInputError",
+    "InfeasibleError",
+    "Line",
+    "LineFileError",
+    "LoadCases",
+    "Mesh",
+    "NotConvergedError",
+    "Result",
+    "SingularError",
+    "UnsupportedError",
+    "load",
+    "load_result",
+    "solve",
+    "vary",
+]
+
+__version__: str

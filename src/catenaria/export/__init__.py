@@ -1,0 +1,1 @@
+"""What is found, for others: schedules, drawings, data, and the initial state of dynamics codes."""

@@ -1,0 +1,57 @@
+"""Checks of the contact wire's heights: gradient, its change, and what is wanted at droppers."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from catenaria.report.checks.check import Check, Found, first_largest, judged
+from catenaria.report.checks.formulas import gradients
+from catenaria.report.checks.rules import Rules
+from catenaria.report.checks.running import Running, contact_wires, running
+from catenaria.results import FormResult
+
+_PER_MILLE = 1e3
+_FINEST = 1e-5  # 0.6 mm on 60 m: finer differences of height cannot be built
+
+
+def height_checks(result: FormResult, rules: Rules, speed: float | None) -> list[Check]:
+    """Check gradients between supports, and heights at droppers."""
+    checks: list[Check] = []
+    wires = [running(result, wire) for wire in contact_wires(result)]
+    several = len(wires) > 1
+    for wire in wires:
+        of = f"{wire.wire}, " if several else ""
+        if rules.gradient is not None:
+            checks.append(judged("gradient of the contact wire", rules.gradient, speed, _gradient(wire, of)))
+        if rules.gradient_change is not None:
+            checks.append(judged("change of gradient", rules.gradient_change, speed, _change(wire, of)))
+    if rules.height_at_droppers is not None:
+        checks.append(judged("heights at droppers", rules.height_at_droppers, speed, _height_error(result)))
+    return checks
+
+
+def _gradient(wire: Running, of: str) -> Found | str:
+    g = gradients(wire.chainage, wire.height)
+    if not g.size:
+        return f"fewer than two supports hold the {wire.wire}"
+    i = first_largest(np.abs(g))
+    place = f"{of}{wire.support[i]} to {wire.support[i + 1]}"
+    return Found(abs(float(g[i])), place, "‰", _PER_MILLE, why=wire.note, resolution=_FINEST)
+
+
+def _change(wire: Running, of: str) -> Found | str:
+    change = np.diff(gradients(wire.chainage, wire.height))
+    if not change.size:
+        return f"fewer than three supports hold the {wire.wire}"
+    i = first_largest(np.abs(change))
+    place = f"{of}{wire.support[i + 1]}"
+    return Found(abs(float(change[i])), place, "‰", _PER_MILLE, why=wire.note, resolution=_FINEST)
+
+
+def _height_error(result: FormResult) -> Found | str:
+    droppers = result.droppers
+    if not droppers.x.size:
+        return "there are no droppers"
+    i = first_largest(np.abs(droppers.height_error))
+    place = f"span {droppers.span[i]}, dropper {droppers.number[i]}"
+    return Found(abs(float(droppers.height_error[i])), place, "mm", 1e3)
