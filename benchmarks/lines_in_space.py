@@ -20,7 +20,7 @@ import numpy as np
 from catenaria.discretise.spatial.demands import to_find
 from catenaria.discretise.spatial.lay_out import lay_out
 from catenaria.discretise.spatial.model import guessed_model
-from catenaria.errors import UnsupportedError
+from catenaria.errors import LineFileError, UnsupportedError
 from catenaria.formfinding.spatial.direct import find_directly
 from catenaria.formfinding.static_problem import find_root, static_problem
 from catenaria.line import Line, load_line
@@ -67,7 +67,7 @@ def lines_in_space(files: Sequence[Path]) -> dict[str, Line]:
     for file in files:
         try:
             line = load_line(file)
-        except UnsupportedError:  # a structure, which is no line
+        except (LineFileError, UnsupportedError):  # load cases, errors, structures: no lines
             continue
         if not line.plane:
             lines[file.stem] = line

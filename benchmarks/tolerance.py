@@ -74,13 +74,10 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser.add_argument("--line", type=Path, nargs="+", help="line files instead of the examples")
     given = parser.parse_args(arguments)
     files: list[Path] = given.line or [EXAMPLES / f"{name}.yaml" for name in LINES]
-    load = os.getloadavg()[0]
-    print(
-        f"{platform.machine()}, {os.cpu_count()} processors, Python {platform.python_version()}, load {load:.1f}"
-    )
-    print(
-        f"{'processor time of':22}{'unknowns':>9}{'errors':>8}{'set up':>13}{'linearise':>13}{'sample':>13}"
-    )
+    machine = f"{platform.machine()}, {os.cpu_count()} processors, Python {platform.python_version()}"
+    print(f"{machine}, load {os.getloadavg()[0]:.1f}")
+    head = f"{'unknowns':>9}{'errors':>8}{'set up':>13}{'linearise':>13}{'sample':>13}"
+    print(f"{'processor time of':22}{head}")
     for file in files:
         print(parts(file))
     print(f"\n{files[0].stem}, {given.samples} samples, wall time with the linearised line and statistics:")

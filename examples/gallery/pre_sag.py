@@ -8,9 +8,9 @@ Draws pre_sag.png into the current folder.
 # %% [markdown]
 # # Pre-sag
 #
-# A contact wire gives way more in the middle of a span than at its supports. If it hangs lower in the middle by as
-# much, a pantograph that pushes with a constant force runs level. Droppers at the ends of a span pay for it: they
-# carry more.
+# A contact wire gives way more in the middle of a span than at its supports. If it hangs lower in the
+# middle by as much, a pantograph that pushes with a constant force runs level. Droppers at the ends of a
+# span pay for it: they carry more.
 
 # %%
 from pathlib import Path
@@ -36,7 +36,9 @@ line = catenaria.vary(
 # %% [markdown]
 # ## One variant
 #
-# Solved with another pre-sag in all spans, then pushed every metre of one span, one place after the other.
+# Solved with another pre-sag in all spans, then pushed every metre of one span, one place after the
+# other.
+
 
 # %%
 def path_of(result: catenaria.Result) -> tuple[np.ndarray, np.ndarray]:

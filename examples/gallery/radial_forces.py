@@ -8,13 +8,14 @@ Draws radial_forces.png into the current folder.
 # %% [markdown]
 # # Radial forces in a curve
 #
-# Where a wire of tension T turns, it pulls its support aside. With offsets b from the track (to the left) at
-# supports, spans a between them and a track that turns by the angle psi, averaged over the spans beside the support,
+# Where a wire of tension T turns, it pulls its support aside. With offsets b from the track (to the left)
+# at supports, spans a between them and a track that turns by the angle psi, averaged over the spans
+# beside the support,
 #
 # $$F = T\,\Bigl(\frac{b_i-b_{i-1}}{a_{i-1}}+\frac{b_i-b_{i+1}}{a_i}-\psi_i\Bigr)$$
 #
-# to the right. In an arc of radius R, psi is (a1 + a2)/2R. The form that is found also knows the slope of wires and
-# droppers that lean, which the formula does not.
+# to the right. In an arc of radius R, psi is (a1 + a2)/2R. The form that is found also knows the slope of
+# wires and droppers that lean, which the formula does not.
 
 # %%
 from pathlib import Path
@@ -34,12 +35,13 @@ show(result)
 # %% [markdown]
 # ## The formula
 #
-# The curvature of the track grows along the transition of 80 m to 1/800 m, and goes back in the same way. The angle
-# is its integral weighted with a hat that is 1 at the support and 0 at its neighbours.
+# The curvature of the track grows along the transition of 80 m to 1/800 m, and goes back in the same way.
+# The angle is its integral weighted with a hat that is 1 at the support and 0 at its neighbours.
 #
-# Staggers are measured in the canted track plane. Cant grows with the curvature, and turns this plane to the inside:
-# a wire 5.5 m above the rails is carried aside by 5.5 m x 100 mm/1.5 m = 367 mm. That counts as offset too, and where
-# the cant begins and ends it matters: without it, arms there would be wrong by up to 46 N.
+# Staggers are measured in the canted track plane. Cant grows with the curvature, and turns this plane to
+# the inside: a wire 5.5 m above the rails is carried aside by 5.5 m x 100 mm/1.5 m = 367 mm. That counts
+# as offset too, and where the cant begins and ends it matters: without it, arms there would be wrong by
+# up to 46 N.
 
 # %%
 track = result.line.track
@@ -59,7 +61,7 @@ held = result.supports.query("wire == 'contact wire'")
 at, stagger, height = (held[column].to_numpy() for column in ("chainage_m", "stagger_m", "height_m"))
 cant = curve.cant * np.interp(at, c, kappa) * curve.radius
 b = stagger + height * cant / track.rail_spacing
-T = float(result.wires.set_index("wire").loc["contact wire", "tension_N"])
+T = result.form.wire("contact wire").tension
 angle = np.array([turned(*at[i - 1 : i + 2]) for i in range(1, at.size - 1)])
 slope = np.diff(b) / np.diff(at)
 to_the_right = T * (slope[:-1] - slope[1:] - angle)
@@ -67,7 +69,8 @@ to_the_right = T * (slope[:-1] - slope[1:] - angle)
 # %% [markdown]
 # ## Both
 #
-# A pull-off arm is hinged on the side of the stagger; its force is positive where the wire pulls away from there.
+# A pull-off arm is hinged on the side of the stagger; its force is positive where the wire pulls away
+# from there.
 
 # %%
 arms = result.arms

@@ -8,8 +8,8 @@ Draws solve_and_plot.png into the current folder.
 # %% [markdown]
 # # Solve a line and look at it
 #
-# The line of section 5 of Yang et al. 2017: three spans of 65 m, both wires at 15 kN, 21 droppers. What is looked
-# for are the lengths to which the droppers must be cut, so that the contact wire is level.
+# The line of section 5 of Yang et al. 2017: three spans of 65 m, both wires at 15 kN, 21 droppers. What
+# is looked for are the lengths to which the droppers must be cut, so that the contact wire is level.
 
 # %%
 from pathlib import Path
@@ -26,8 +26,8 @@ show(result)
 # %% [markdown]
 # ## The dropper schedule
 #
-# A pandas data frame, like every table; the names of its columns say the unit. A result is worth something if its
-# audit and its rebuild passed.
+# A pandas data frame, like every table; the names of its columns say the unit. A result is worth
+# something if its audit and its rebuild passed.
 
 # %%
 if not result.passed:

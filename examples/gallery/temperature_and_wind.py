@@ -8,13 +8,13 @@ Draws temperature_and_wind.png into the current folder.
 # %% [markdown]
 # # Load cases
 #
-# Half a tension length of 12 spans, pulled at its start, is found at 15 degrees and then built: unstressed lengths
-# stay what they were found to be. Warm wires are longer; the weights sink and take up what is too long.
+# Half a tension length of 12 spans, pulled at its start, is found at 15 degrees and then built:
+# unstressed lengths stay what they were found to be. Warm wires are longer; the weights sink and take up
+# what is too long.
 
 # %%
 from pathlib import Path
 
-import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 from rich import print as show
@@ -33,8 +33,9 @@ study = result.under(cases)
 # %% [markdown]
 # ## Stroke
 #
-# A free wire of length L would move its end by alpha L dT. These wires are not free: arms swing along with the
-# contact wire, the messenger wire runs over rollers with friction, and droppers between them lean.
+# A free wire of length L would move its end by alpha L dT. These wires are not free: arms swing along
+# with the contact wire, the messenger wire runs over rollers with friction, and droppers between them
+# lean.
 
 # %%
 LONG = ("contact wire", "messenger wire")
@@ -59,7 +60,8 @@ show(strokes.round(1).to_string(index=False))
 # %% [markdown]
 # ## Wind
 #
-# In the middle of spans the wind carries the contact wire aside. The textbook takes it for a string on its own.
+# In the middle of spans the wind carries the contact wire aside. The textbook takes it for a string on
+# its own.
 
 # %%
 blown = study.cases[-1].blow_off

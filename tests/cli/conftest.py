@@ -90,7 +90,9 @@ class FakeWorkflow:
         progress(Progress("rebuild", 3, 3, elapsed=11.1))
         return self.result
 
-    def write(self, result: Any, folder: Path, figures: bool = True) -> tuple[Path, ...]:
+    def write(
+        self, result: Any, folder: Path, figures: bool = True, report: bool = False
+    ) -> tuple[Path, ...]:
         if self.write_failure is not None:
             raise self.write_failure
         self.written.append((folder, figures))

@@ -87,3 +87,16 @@ def test_a_folder_of_somebody_else_is_left(solved: Path, tmp_path: Path) -> None
     outcome = RUN.invoke(app, ["elasticity", str(solved), "--out", str(tmp_path)])
     assert outcome.exit_code == 2
     assert (tmp_path / "notes.txt").read_text() == "mine"
+
+
+def test_an_interruption_leaves_nothing(
+    solved: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def interrupted(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("catenaria.workflow.elasticity_as", interrupted)
+    outcome = RUN.invoke(app, ["elasticity", str(solved), "--out", str(tmp_path / "out")])
+    assert outcome.exit_code == 130
+    assert "Nothing was written" in outcome.stderr
+    assert not (tmp_path / "out").exists()

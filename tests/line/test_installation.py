@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from catenaria.errors import LineFileError
-from catenaria.line import Line, load_line
+from catenaria.line import Line, load_line, summarise
 from catenaria.line.installation import Installation, Spread, usual_installation
 from catenaria.line.load_installation import load_installation
 
@@ -114,3 +114,14 @@ def test_a_line_with_errors_of_what_it_does_not_have_is_refused(line: Line, tmp_
     [fault] = caught.value.faults
     assert fault.field == "installation.known.droppers[0].span"
     assert fault.line == len(text.splitlines()) + 3
+
+
+def test_the_summary_of_a_line_tells_its_errors(line: Line) -> None:
+    assert "Errors of installation" not in dict(summarise(line))
+    errors = load_installation(EXAMPLES / "installation_errors.yaml", line)
+    tree = line.model_dump(mode="json") | {"installation": errors.model_dump(mode="json")}
+    rows = dict(dict(summarise(Line.model_validate(tree)))["Errors of installation"])
+    assert rows["dropper length"] == "normal, 1 mm, within 2 deviations"
+    assert rows["tension"] == "triangular, 2 %"
+    assert rows["known errors"] == "4"
+    assert len(rows) == 8

@@ -9,10 +9,11 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
+import distributed
 import psutil
 import pytest
 
-from catenaria.errors import InconsistentInputError, UnsupportedError
+from catenaria.errors import InconsistentInputError, NotConvergedError, UnsupportedError
 from catenaria.workflow.cluster import CONNECT, Cluster, Failed, local_cluster, remote_cluster
 
 pytestmark = pytest.mark.slow
@@ -129,6 +130,18 @@ def test_without_dask_the_error_names_the_extra(monkeypatch: pytest.MonkeyPatch)
     monkeypatch.setitem(sys.modules, "distributed", None)
     with (
         pytest.raises(UnsupportedError, match=r"pip install 'catenaria\[batch\]'"),
+        local_cluster(worker_function(), 1),
+    ):
+        pass
+
+
+def test_workers_that_do_not_start_are_a_failure_by_name(monkeypatch: pytest.MonkeyPatch) -> None:
+    def fail(**options: object) -> None:
+        raise RuntimeError("Nanny failed to start.") from OSError("no processes left")
+
+    monkeypatch.setattr(distributed, "LocalCluster", fail)
+    with (
+        pytest.raises(NotConvergedError, match=r"did not start \(no processes left\)"),
         local_cluster(worker_function(), 1),
     ):
         pass

@@ -98,7 +98,7 @@ def _wire_table(form: FormResult) -> str:
     hidden = len(form.wires) - _MOST_WIRES
     if hidden > 0:
         rows += f'<tr><td colspan="{len(_COLUMNS)}">and {hidden} more</td></tr>'
-    return f"<table><tr>{head}</tr>{rows}</table>"
+    return f'<table style="white-space: nowrap"><tr>{head}</tr>{rows}</table>'
 
 
 def _row(wire: WireForm) -> str:

@@ -59,7 +59,7 @@ def pressed_elements(knots: FloatArray, element: int, x: FloatArray, T: float, E
 
     Notes
     -----
-    Elements for a taut beam with cubic Hermite functions, as Przemieniecki 1968, section 15.2.
+    The stiffness of a beam with cubic Hermite functions, and the geometric one of its tension by the same.
     """
     h = np.diff(knots)
     K = np.zeros((2 * knots.size, 2 * knots.size))

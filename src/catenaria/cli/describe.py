@@ -43,15 +43,26 @@ def check(line: Annotated[Path, typer.Argument(metavar="LINE", help="Line file, 
     console.print(f"{line}: no faults found.", soft_wrap=True)
 
 
-def schema() -> None:
+def schema(
+    result: Annotated[
+        bool, typer.Option("--result", help="Of the tables that `catenaria export --format json` writes.")
+    ] = False,
+) -> None:
     """Print the JSON Schema of line files, which explains every field.
 
     Example:
 
       catenaria schema > line.schema.json
+      catenaria schema --result > tables.schema.json
 
     Editors that are given the schema complete and check line files while they are written.
     """
-    from catenaria import line
+    if result:
+        from catenaria import workflow
 
-    typer.echo(json.dumps(line.schema(), indent=2, ensure_ascii=False))
+        printed = workflow.tables_schema()
+    else:
+        from catenaria import line
+
+        printed = line.schema()
+    typer.echo(json.dumps(printed, indent=2, ensure_ascii=False))

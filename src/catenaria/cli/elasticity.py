@@ -17,6 +17,7 @@ from catenaria.cli.points_shown import points_shown
 from catenaria.cli.tolerance import beside
 
 if TYPE_CHECKING:
+    from catenaria.loading.elasticity import Wanted
     from catenaria.results.elasticity import ElasticityStudy
     from catenaria.units import Dimension
 
@@ -64,7 +65,7 @@ def elasticity(
 
       catenaria elasticity examples/yang2017_three_span.yaml --force 200N
       catenaria elasticity results/simple_60m --from 120m --to 240m --nonlinear
-      catenaria elasticity results/simple_60m --max-elasticity "0.5 mm/N" --max-nonuniformity 25
+      catenaria elasticity results/simple_60m --max-elasticity "0.5 mm/N"
 
     The folder then holds elasticity.csv (a row for each point), spans.csv (extremes and non-uniformity of
     each span, and the hand formula), comparison.csv (linearised beside nonlinear), elasticity.png, and
@@ -76,47 +77,61 @@ def elasticity(
     console = Console(markup=False, highlight=False, emoji=False)
     began = time.perf_counter()
     with failures_reported():
-        from catenaria import results, workflow
-        from catenaria.units import FORCE, LENGTH, Dimension
-
-        flexibility = Dimension("an elasticity", "m/N", "0.5 mm/N")
+        wanted = _read(force, spacing, start, end, most, uneven, nonlinear)
         folder = beside(source, "elasticity") if out is None else out
-        push, step = quantity("--force", force, FORCE), positive_length("--spacing", spacing)
-        first, last = (
-            None if text is None else quantity(option, text, LENGTH)
-            for option, text in (("--from", start), ("--to", end))
-        )
-        limit = None if most is None else quantity("--max-elasticity", most, flexibility)
-        results.require_replaceable(folder)
-        try:
-            with points_shown(console) as tell:
-                study = workflow.elasticity(
-                    source,
-                    push,
-                    step,
-                    nonlinear=nonlinear,
-                    start=first,
-                    end=last,
-                    elasticity_limit=limit,
-                    nonuniformity_limit=None if uneven is None else 0.01 * uneven,
-                    progress=tell,
-                )
-            files = workflow.write_elasticity(study, folder, figures=not no_figures)
-        except KeyboardInterrupt:
-            complain("Interrupted. Nothing was written.")
-            raise typer.Exit(INTERRUPTED) from None
-        except OSError as error:
-            complain(f"{folder} cannot be written: {error.strerror}")
-            raise typer.Exit(BAD_INPUT) from error
+        study, count = _study(source, wanted, folder, console, figures=not no_figures)
     show_study(study, console)
     console.print(
-        f"\nWritten to {folder}: {len(files)} files, done after {time.perf_counter() - began:.1f} s.",
+        f"\nWritten to {folder}: {count} files, done after {time.perf_counter() - began:.1f} s.",
         soft_wrap=True,
     )
     for text in study.broken_limits():
         complain(f"Limit not kept: {text}")
     if study.broken_limits():
         raise typer.Exit(NOT_CONVERGED)
+
+
+def _read(
+    force: str,
+    spacing: str,
+    start: str | None,
+    end: str | None,
+    most: str | None,
+    uneven: float | None,
+    nonlinear: bool,
+) -> Wanted:
+    from catenaria.loading.elasticity import Wanted
+    from catenaria.units import FORCE, LENGTH, Dimension
+
+    flexibility = Dimension("an elasticity", "m/N", "0.5 mm/N")
+    return Wanted(
+        quantity("--force", force, FORCE),
+        positive_length("--spacing", spacing),
+        nonlinear,
+        None if start is None else quantity("--from", start, LENGTH),
+        None if end is None else quantity("--to", end, LENGTH),
+        () if most is None else (quantity("--max-elasticity", most, flexibility),),
+        () if uneven is None else (0.01 * uneven,),
+    )
+
+
+def _study(
+    source: Path, wanted: Wanted, folder: Path, console: Console, *, figures: bool
+) -> tuple[ElasticityStudy, int]:
+    """Return the study and the number of files that were written."""
+    from catenaria import results, workflow
+
+    results.require_replaceable(folder)
+    try:
+        with points_shown(console) as tell:
+            study = workflow.elasticity_as(source, wanted, tell)
+        return study, len(workflow.write_elasticity(study, folder, figures=figures))
+    except KeyboardInterrupt:
+        complain("Interrupted. Nothing was written.")
+        raise typer.Exit(INTERRUPTED) from None
+    except OSError as error:
+        complain(f"{folder} cannot be written: {error.strerror}")
+        raise typer.Exit(BAD_INPUT) from error
 
 
 def quantity(option: str, text: str, dimension: Dimension) -> float:

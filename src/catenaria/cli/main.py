@@ -7,13 +7,17 @@ from typing import Annotated
 import typer
 
 from catenaria import __version__
+from catenaria.cli.adjust import adjust
 from catenaria.cli.batch import batch
+from catenaria.cli.checks import checks
 from catenaria.cli.compare import compare
 from catenaria.cli.describe import check, schema
 from catenaria.cli.elasticity import elasticity
+from catenaria.cli.export import export
 from catenaria.cli.load import load
 from catenaria.cli.network import network
 from catenaria.cli.new import new
+from catenaria.cli.report import report
 from catenaria.cli.rounding import rounding
 from catenaria.cli.solve import solve
 from catenaria.cli.tolerance import tolerance
@@ -34,10 +38,14 @@ app.command()(validate)
 app.command()(compare)
 app.command()(batch)
 app.command()(network)
+app.command()(export)
 app.command()(load)
 app.command()(elasticity)
 app.command()(rounding)
 app.command()(tolerance)
+app.command()(adjust)
+app.command()(checks)
+app.command()(report)
 
 
 def _show_version(wanted: bool) -> None:

@@ -39,6 +39,9 @@ def solve(
         typer.Option(metavar="KEY=VALUE", help="A field of solver.mesh of LINE; may be given several times."),
     ] = None,
     no_figures: Annotated[bool, typer.Option("--no-figures", help="Write no figures.")] = False,
+    report: Annotated[
+        bool, typer.Option("--report", help="Write report.html too; see `catenaria report`.")
+    ] = False,
 ) -> None:
     """Find the form of a line and write it to a folder.
 
@@ -65,9 +68,13 @@ def solve(
     console = Console(markup=False, highlight=False, emoji=False)
     began = time.perf_counter()
     with failures_reported():
+        if report:
+            from catenaria.report.html.page import require_report_libraries
+
+            require_report_libraries()
         result = _find_form(line, _Request(method, start, rebuild, tuple(mesh or ())), folder, console)
         _require_trusted(result)
-        files = _write(result, folder, console, figures=not no_figures)
+        files = _write(result, folder, console, figures=not no_figures, report=report)
     show_result(result, console)
     console.print(
         f"\nWritten to {folder}: {len(files)} files, done after {time.perf_counter() - began:.1f} s.",
@@ -126,12 +133,14 @@ def _require_trusted(result: FormResult) -> None:
             raise typer.Exit(NOT_CONVERGED)
 
 
-def _write(result: FormResult, folder: Path, console: Console, *, figures: bool) -> tuple[Path, ...]:
+def _write(
+    result: FormResult, folder: Path, console: Console, *, figures: bool, report: bool
+) -> tuple[Path, ...]:
     from catenaria import workflow
 
     try:
         with console.status("Writing the results"):
-            return workflow.write(result, folder, figures=figures)
+            return workflow.write(result, folder, figures=figures, report=report)
     except KeyboardInterrupt:
         _end_interrupted(f"while writing. {folder} holds all of the new results or what it held before")
     except OSError as error:

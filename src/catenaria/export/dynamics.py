@@ -1,4 +1,4 @@
-"""The initial state for dynamics codes: a found line at rest in a neutral format, with its matrices and modes.
+"""The initial state for dynamics codes: a found line at rest, neutrally described, with matrices and modes.
 
 The format is described in ``docs/theory/dynamics_format.md``.
 """
@@ -11,11 +11,11 @@ from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import save_npz
 
 from catenaria.discretise.read_back import element_tension
 from catenaria.export.joints import first_nodes, joints
 from catenaria.export.resting import RestingLine
+from catenaria.export.tangent import sparse
 from catenaria.export.vibrations import Vibrations, vibrations
 from catenaria.line import Line
 from catenaria.results import FormResult
@@ -57,7 +57,7 @@ def write_dynamics(result: FormResult, folder: Path, modes: int = MODES) -> None
     tangent = rest.tangent
     matrices = {"mass": tangent.M, "stiffness": tangent.K, "constraints": tangent.C, "compliance": tangent.D}
     for name, matrix in matrices.items():
-        save_npz(folder / f"{name}.npz", matrix)
+        sparse.save_npz(folder / f"{name}.npz", matrix)
 
 
 def dynamics_model(rest: RestingLine, found: Vibrations) -> dict[str, Any]:
@@ -160,7 +160,7 @@ def _dropper_arrays(rest: RestingLine) -> dict[str, NDArray[Any]]:
         "dropper_upper_coordinate": z[model.upper_s],
         "dropper_length": z[model.length],
         "dropper_flexibility": droppers.flexibility,
-        "dropper_force": z[model.density] * rest.dropper_span,
+        "dropper_force": z[model.density] * rest.dropper_reach,
         "dropper_span": rest.result.droppers.span,
         "dropper_number": rest.result.droppers.number,
     }

@@ -1,4 +1,4 @@
-"""What has mass on the wires of a built line: droppers' clamps with half of the droppers, arms, point masses."""
+"""What has mass on the wires of a built line: clamps with half of the droppers, arms, point masses."""
 
 from __future__ import annotations
 

@@ -1,25 +1,24 @@
 """A found line at rest, linearised: mass, tangent stiffness and constraints by nodes and sliding coordinates.
 
-All lengths are given and all clamps are closed; wires go on running over rollers. Weights of droppers and arms
-are dead forces here, as large as they are at rest, so that the stiffness is symmetric.
+All lengths are given and all clamps are closed; wires go on running over rollers. Weights of droppers and
+arms are dead forces here, as large as they are at rest, so that the stiffness is symmetric.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import block_array, coo_array, csc_array, csr_array, diags_array
 
 from catenaria.discretise.spatial.demands import as_built
 from catenaria.discretise.spatial.found import found_model
 from catenaria.discretise.spatial.layout import LaidDroppers
 from catenaria.discretise.spatial.model import FULL, SpatialModel
-from catenaria.errors import InconsistentInputError
 from catenaria.export.masses import Lumps, lumps
+from catenaria.export.tangent import Tangent, sparse, tangent
 from catenaria.formfinding.static_problem import find_rest
 from catenaria.line import Line
 from catenaria.mechanics.chain import Chain
@@ -32,8 +31,6 @@ from catenaria.results import FormResult
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
-
-_SAME = 1e-9  # of a constraint's derivatives and its force's directions, relative
 
 
 @dataclass(frozen=True)
@@ -118,26 +115,18 @@ class RestingLine:
     @cached_property
     def tangent(self) -> Tangent:
         """The linearised equations."""
-        J = csr_array(self.system.jacobian(State.at_rest(self.z)))
-        q, m, spring = self.coordinates, self.multipliers, self.model.density[self.elastic]
-        give = cast("FloatArray", J[spring][:, spring].diagonal())
-        soft = J[q][:, spring] @ diags_array(1.0 / give) @ J[spring][:, q]
-        forces, rows = csc_array(J[q][:, m]), csr_array(J[m][:, q])
-        unit = diags_array(1.0 / self.bar_length)
-        own = diags_array(_scale(forces, rows)) @ J[m][:, m]
-        return Tangent(
-            self._mass(),
-            csr_array(J[q][:, q] - soft),
-            csr_array(unit @ forces.T),
-            csr_array(-unit @ own @ unit),
+        jacobian = self.system.jacobian(State.at_rest(self.z))
+        springs = self.model.density[self.elastic]
+        return tangent(
+            jacobian, self._mass(), self.coordinates, self.multipliers, springs, 1.0 / self.bar_length
         )
 
     @cached_property
     def bar_length(self) -> FloatArray:
-        """Lengths of arms and rigid droppers [m], 1 for other constraints, shape (m,): their unknowns are N/m."""
+        """Lengths of arms and rigid droppers [m], whose unknowns are N/m, and 1 for other constraints."""
         model, length = self.model, np.ones(self.multipliers.size)
         length[self.rows(model.arm_density)] = model.layout.holds.arm_length[model.layout.holds.hinged]
-        length[self.rows(model.density[~self.elastic])] = self.dropper_span[~self.elastic]
+        length[self.rows(model.density[~self.elastic])] = self.dropper_reach[~self.elastic]
         return length
 
     @cached_property
@@ -146,18 +135,20 @@ class RestingLine:
         return self.z[self.multipliers] * self.bar_length
 
     @cached_property
-    def dropper_span(self) -> FloatArray:
+    def dropper_reach(self) -> FloatArray:
         """Distances between the clamps of droppers [m]."""
         return _spans(self.model, self.z)
 
     @cached_property
     def load(self) -> FloatArray:
-        """Dead forces on all coordinates: gravity, and the weights of droppers, arms and masses [N], shape (n,)."""
+        """Dead forces on all coordinates: weights of wires, droppers, arms and masses [N], shape (n,)."""
         size, lumped, layout = self.z.size, self.lumps, self.model.layout
-        force = layout.g * sum((part.weight(size) for part in self._elements()), np.zeros(size))
+        force = np.zeros(size)
+        for elements in self._elements():
+            force += layout.g * elements.weight(size)
         point = lumped.carrier.evaluate(self.z, lumped.s)
         np.subtract.at(force, point.dofs[:, :, 2], lumped.weight[:, None] * point.N)
-        return cast("FloatArray", force)[self.coordinates]
+        return force[self.coordinates]
 
     def rows(self, multipliers: IntArray) -> IntArray:
         """Return which constraints some multipliers belong to."""
@@ -167,67 +158,16 @@ class RestingLine:
         pieces = [self.model.pieces(FULL).elements] if self.model.has_pieces else []
         return [self.model.elements, *pieces]
 
-    def _mass(self) -> csr_array:
+    def _mass(self) -> Any:
         """Return the consistent mass matrix of wires and cantilevers, with point masses on them."""
         size, lumped = self.z.size, self.lumps
-        parts = (assemble(elements, elements.mass(), size) for elements in self._elements())
-        total = sum(parts, csr_array((size, size)))
+        parts = [assemble(elements, elements.mass(), size) for elements in self._elements()]
         point = lumped.carrier.evaluate(self.z, lumped.s)
         share = lumped.mass[:, None, None] * point.N[:, :, None] * point.N[:, None, :]
         rows, columns = np.broadcast_arrays(point.dofs[:, :, None, :], point.dofs[:, None, :, :])
         values = np.broadcast_to(share[..., None], rows.shape)
-        total = total + coo_array((values.ravel(), (rows.ravel(), columns.ravel())), shape=(size, size))
-        mass = csr_array(csr_array(total)[self.coordinates][:, self.coordinates])
-        mass.eliminate_zeros()
-        return mass
-
-
-@dataclass(frozen=True)
-class Tangent:
-    r"""Small motions about the state of rest.
-
-    Attributes
-    ----------
-    M, K : csr_array, shape (n, n)
-        Mass and tangent stiffness, symmetric; droppers that are springs are in K, slack ones are not.
-    C : csr_array, shape (m, n)
-        Derivatives of the constraints by coordinates.
-    D : csr_array, shape (m, m)
-        Compliance of what is held by springs; zero for rigid constraints.
-
-    Notes
-    -----
-    .. math:: M\,\ddot x + K\,x + C^T\mu = 0,\qquad C\,x - D\,\mu = 0 .
-    """
-
-    M: csr_array
-    K: csr_array
-    C: csr_array
-    D: csr_array
-
-    def whole(self) -> tuple[csc_array, csc_array]:
-        """Return stiffness and mass of coordinates and constraint forces together."""
-        K = block_array([[self.K, self.C.T], [self.C, -self.D]])
-        empty = csr_array(self.D.shape)
-        M = csc_array(block_array([[self.M, None], [None, empty]]))
-        M.eliminate_zeros()
-        return csc_array(K), M
-
-
-def _scale(forces: csc_array, rows: csr_array) -> FloatArray:
-    """Return by what constraints' rows are multiplied to be the directions of their forces.
-
-    Rows are written as lengths, forces of bars per length: the two differ by a factor.
-    """
-    across = rows.multiply(forces.T).sum(axis=1)
-    own = rows.multiply(rows).sum(axis=1)
-    if not np.all(own > 0.0):
-        raise InconsistentInputError("a constraint of the line holds nothing")
-    scale = np.asarray(across / own, dtype=np.float64)
-    off: Any = abs(diags_array(scale) @ rows - forces.T).max()
-    if not off <= _SAME * abs(forces).max():
-        raise InconsistentInputError("a constraint's force is not normal to what the constraint leaves free")
-    return scale
+        where = rows.ravel(), columns.ravel()
+        return sum(parts, sparse.csr_array(sparse.coo_array((values.ravel(), where), shape=(size, size))))
 
 
 def _with_dead_weights(model: SpatialModel) -> SpatialModel:

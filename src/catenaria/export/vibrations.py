@@ -35,7 +35,7 @@ class Vibrations:
 
 
 def vibrations(rest: RestingLine, count: int) -> Vibrations:
-    """Return the lowest natural modes of a line at rest; ends of wires are held, droppers neither go slack nor tight.
+    """Return the lowest natural modes of a line at rest; ends are held, no dropper becomes slack or taut.
 
     Raises
     ------
@@ -46,13 +46,15 @@ def vibrations(rest: RestingLine, count: int) -> Vibrations:
     NotConvergedError
         If the iteration does not converge.
     """
-    K, M = rest.tangent.whole()
+    stiffness, mass = rest.tangent.whole()
     order = np.argsort(np.concatenate((rest.coordinates, rest.multipliers)), kind="stable")  # a narrow band
-    K, M = K[order][:, order], M[order][:, order]
+    K, M = (cast("SparseMatrix", matrix[order][:, order]) for matrix in (stiffness, mass))
     try:
-        pairs = smallest_modes(cast("SparseMatrix", K), cast("SparseMatrix", M), count, "NATURAL")
+        pairs = smallest_modes(K, M, count, "NATURAL")
     except np.linalg.LinAlgError as error:
-        raise InconsistentInputError(f"no natural modes: {error}, so something moves without force") from error
+        raise InconsistentInputError(
+            f"no natural modes: {error}, so something moves without force"
+        ) from error
     square = pairs.value
     if np.any((square.real <= 0.0) | (np.abs(square.imag) > _REAL * np.abs(square))):
         raise InfeasibleError("no natural modes: the line is not stable; more tension would help")

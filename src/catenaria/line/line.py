@@ -30,6 +30,8 @@ from catenaria.line.track import Track
 from catenaria.line.wire import SecondContactWire, Wire
 from catenaria.units import Length, PositiveAcceleration
 
+_FARTHEST = 1e6  # m
+
 
 class Line(LineModel):
     """An overhead contact line: wires, supports, spans with droppers, and how to solve it.
@@ -71,7 +73,7 @@ class Line(LineModel):
     )
     dropper: DropperKind = Field(description="What all droppers are made of.")
     start_chainage: Length = Field(
-        default=0.0, ge=-1e6, le=1e6, description="Chainage (x) of the first support, within 1,000 km."
+        default=0.0, description="Chainage (x) of the first support, within 1,000 km."
     )
     supports: tuple[Support, ...] = Field(description="Supports in order of chainage: one more than spans.")
     spans: tuple[Span, ...] = Field(description="Spans in order of chainage.")
@@ -96,6 +98,14 @@ class Line(LineModel):
         if type(value) is not int:
             raise PydanticCustomError("value", "{allowed}", {"allowed": "1"})
         return value
+
+    @field_validator("start_chainage", mode="after")
+    @classmethod
+    def _near(cls, chainage: float) -> float:
+        """Digits of positions are lost far away; bounds of the field do not reach quantities with units."""
+        if abs(chainage) > _FARTHEST:
+            raise PydanticCustomError("value", "{allowed}", {"allowed": f"within {_FARTHEST:g} m"})
+        return chainage
 
     @field_validator("supports", mode="after")
     @classmethod

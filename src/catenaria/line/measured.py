@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, cast
 
 from catenaria.errors import Fault, LineFileError
 from catenaria.line.base import closest
@@ -63,7 +63,7 @@ class MeasuredHeights:
 
 
 def load_measured(path: str | Path) -> MeasuredHeights:
-    """Read a CSV file of measured heights.
+    r"""Read a CSV file of measured heights.
 
     Parameters
     ----------
@@ -82,17 +82,17 @@ def load_measured(path: str | Path) -> MeasuredHeights:
     >>> import tempfile
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     file = Path(folder) / "heights.csv"
-    ...     _ = file.write_text("span,dropper,height_m\\n1,2,5.503\\n1,3,\\n")
+    ...     _ = file.write_text("span,dropper,height_m\n1,2,5.503\n1,3,\n")
     ...     [(row.span, row.number, row.height) for row in load_measured(file).rows]
     [(1, 2, 5.503)]
     """
     file = str(path)
     table = _read(Path(path))
-    columns = {str(name).strip(): i for i, name in enumerate(table.columns)}
+    header, *cells = cast("list[list[str]]", table.to_numpy(dtype=object).tolist())
+    columns = {name.strip(): i for i, name in enumerate(header)}
     _check_columns(file, columns)
     faults: list[Fault] = []
     rows: list[MeasuredHeight] = []
-    cells: list[list[str]] = table.to_numpy(dtype=object).tolist()
     for number, texts in enumerate(cells, start=2):  # the header is line 1
         row = _Row(file, number, texts, columns)
         if row.text("height_m"):
@@ -101,7 +101,9 @@ def load_measured(path: str | Path) -> MeasuredHeights:
     if faults:
         raise LineFileError(tuple(faults))
     if not rows:
-        raise LineFileError((Fault(file, 0, 0, "height_m", "no height at all", "one or more measured heights"),))
+        raise LineFileError(
+            (Fault(file, 0, 0, "height_m", "no height at all", "one or more measured heights"),)
+        )
     return MeasuredHeights(file, tuple(rows))
 
 
@@ -115,10 +117,10 @@ def _read(path: Path) -> DataFrame:
     try:
         return pandas.read_csv(  # pyright: ignore[reportUnknownMemberType]  # of its many overloads
             path,
+            header=None,  # else rows that are longer lose cells, with a warning only
             dtype=str,
             keep_default_na=False,
             skip_blank_lines=False,
-            index_col=False,
             encoding="utf-8-sig",
             engine="python",
         ).fillna("")

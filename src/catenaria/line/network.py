@@ -52,8 +52,8 @@ def network(count: int, seed: int) -> Iterator[Document]:
 
     Examples
     --------
-    >>> [document["name"] for document in network(3, seed=3)]
-    ['line 1, stitched', 'line 2, stitched', 'line 3, stitched']
+    >>> [document["name"] for document in network(3, seed=2)]
+    ['line 1, simple', 'line 2, stitched', 'line 3, curved']
     """
     if count < 1 or seed < 0:
         raise InconsistentInputError("a network needs a count of one or more and a seed that is not negative")

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import groupby
 
+from catenaria.line.installation_summary import installation_rows
 from catenaria.line.line import Line
 from catenaria.line.wire import Anchor, Wire
 
@@ -35,6 +36,7 @@ def summarise(line: Line) -> list[Section]:
         ("Point masses", [(mass.wire, f"{_named(mass.name)}{mass.mass:g} kg") for mass in line.point_masses]),
         ("Droppers", _droppers(line)),
         ("Prescribed", _prescribed(line)),
+        ("Errors of installation", installation_rows(line.installation)),
         ("Dynamic method", _dynamic(line)),
     ]
     return [(title, rows) for title, rows in sections if rows]

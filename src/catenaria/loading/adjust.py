@@ -83,8 +83,9 @@ def adjust(
             droppers = adjusted_droppers(built, search.checked, present, step.predicted, step.rest)
             return adjustment(built, limits, points, droppers, choice.fewest, number)
     raise NotConvergedError(
-        f"after {_PASSES} linearisations heights at rest come within {1e3 * search.largest(step.rest):.3f} mm of "
-        f"the wanted ones, not within {1e3 * limits.tolerance:g} mm as predicted",
+        f"after {_PASSES} linearisations heights at rest come within "
+        f"{1e3 * search.largest(step.rest):.3f} mm of the wanted ones, not within "
+        f"{1e3 * limits.tolerance:g} mm as predicted",
         "a tolerance that is 0.1 mm wider",
     )
 
@@ -157,9 +158,15 @@ def _refusal(options: Adjustable, limits: AdjustmentLimits, choice: Choice | Non
     change = f"by up to {1e3 * limits.largest_change:g} mm in steps of {1e3 * limits.step:g} mm"
     at_most = options.count if limits.at_most is None else limits.at_most
     best = options.best_tolerance(at_most)
-    reach = "" if best is None else f"; the best that was found for {at_most} is {math.ceil(1e4 * best) / 10:.1f} mm"
+    reach = (
+        ""
+        if best is None
+        else f"; the best that was found for {at_most} is {math.ceil(1e4 * best) / 10:.1f} mm"
+    )
     if choice is None:
         return f"no changes of dropper lengths {change} bring all heights {wish}{force}{reach}"
     sure = "" if choice.fewest == choice.count else f" (fewer than {choice.fewest} would not)"
-    more = f"{choice.count} droppers would do{sure}"
-    return f"at most {at_most} changes of dropper lengths {change} do not bring all heights {wish}{force}: {more}{reach}"
+    return (
+        f"at most {at_most} changes of dropper lengths {change} do not bring all heights {wish}{force}: "
+        f"{choice.count} droppers would do{sure}{reach}"
+    )

@@ -96,6 +96,8 @@ def adjustment(
         noise=limits.noise,
         points=points,
         droppers=droppers,
+        supports=tuple(support.name for support in built.line.supports),
+        support_chainage=np.array(built.line.support_x),
         fewest=fewest,
         passes=passes,
         inputs=built.result.inputs,

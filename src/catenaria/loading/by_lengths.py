@@ -98,7 +98,9 @@ def respond(
     factors = factorise(root.problem.jacobian(root.y), permc_spec="NATURAL")
     at_rest = _AtRest.of(model, gauged, root.y)
     slopes = [at_rest.changes(_response(factors, row, z.size)) for row in model.length.tolist()]
-    height_slope, pull_slope, gauged_slope = (np.column_stack(columns) for columns in zip(*slopes, strict=True))
+    height_slope, pull_slope, gauged_slope = (
+        np.column_stack(columns) for columns in zip(*slopes, strict=True)
+    )
     return Response(
         length,
         root.y,

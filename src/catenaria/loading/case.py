@@ -13,7 +13,6 @@ from catenaria.discretise.spatial.found import found_model
 from catenaria.discretise.spatial.loaded import (
     clamp_load,
     line_load,
-    loaded_system,
     material_at,
     point_load,
     warmed,
@@ -22,16 +21,14 @@ from catenaria.discretise.spatial.loaded import (
 )
 from catenaria.discretise.spatial.model import SpatialModel
 from catenaria.errors import InfeasibleError, NotConvergedError
-from catenaria.formfinding.static_problem import static_problem
 from catenaria.line.load_case import LoadCase, Push
 from catenaria.loading.bays import bays, blow_off, span_extremes
 from catenaria.loading.built_line import BuiltLine, LoadedLine, wire_conductor
 from catenaria.loading.ice import ice_on, ring_weight, thicker
 from catenaria.loading.read_case import line_state
+from catenaria.loading.rest import at_rest, rest_when_warmed
 from catenaria.loading.wind import WindOn, wind_on
 from catenaria.results.case import CaseResult, LineState, Pushed
-from catenaria.solvers.load_stepping import SteppingOptions, solve_by_steps
-from catenaria.solvers.newton import NewtonOptions
 
 FloatArray = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -39,7 +36,6 @@ Mask = NDArray[np.bool_]
 _UP = np.array([0.0, 0.0, 1.0])
 _BESIDE: Final = np.array([0.0, -0.1, 0.1, -0.3, 0.3, -1.0, 1.0])  # m: nodes where a wire is pushed
 NOT_PUSHED: Final = Pushed((), np.empty(0), np.empty(0), np.empty(0))
-_STEPS: Final = SteppingOptions(newton=NewtonOptions(max_iterations=15, permc_spec="NATURAL"))
 
 
 @dataclass(frozen=True)
@@ -83,20 +79,19 @@ def solve_case(built: BuiltLine, name: str, case: LoadCase, before: LineState) -
         If no rest is found.
     """
     broken = _broken(built.model, case)
-    model = changed_model(built, case, broken)
-    loads = loads_on(built, model, case)
     try:
-        loaded, pushed = at_rest(built, model, loads.on(model)), NOT_PUSHED
+        loaded, loads = _unpushed(built, case, broken)
+        pushed = NOT_PUSHED
         if case.push:
             finer = _finer(built, loaded, case)
-            model = changed_model(finer, case, broken)
-            loads = loads_on(finer, model, case)
-            unpushed = at_rest(finer, model, loads.on(model))
-            loaded, pushed = _pushed(finer, unpushed, loads.on(model), case.push)
+            unpushed, loads = _unpushed(finer, case, broken)
+            loaded, pushed = _pushed(finer, unpushed, loads.on(unpushed.model), case.push)
     except NotConvergedError as error:
-        raise NotConvergedError(f"Load case {name}: {error.reason}", error.advice, error.partial) from error
+        advice = "less load, or what acts in the case one by one"
+        raise NotConvergedError(f"Load case {name}: {error.reason}", advice, error.partial) from error
     except InfeasibleError as error:
         raise InfeasibleError(f"Load case {name}: {error}", error.partial) from error
+    model = loaded.model
     state, every = line_state(built.line, loaded, broken), tuple(bays(built.model, before))
     return CaseResult(
         name=name,
@@ -147,23 +142,16 @@ def loads_on(built: BuiltLine, model: SpatialModel, case: LoadCase) -> Loads:
     return Loads(tuple(wires), droppers, wind)
 
 
-def at_rest(
-    built: BuiltLine, model: SpatialModel, load: FloatArray, z: FloatArray | None = None
-) -> LoadedLine:
-    """Return the line at rest, by Newton's method or, where that alone fails, by steps of the load.
-
-    Raises
-    ------
-    NotConvergedError, InfeasibleError
-        If neither finds it.
-    """
-    try:
-        return built.under(load, model, z)
-    except (NotConvergedError, InfeasibleError):
-        z = model.unknowns.start if z is None else z
-        problem = static_problem(loaded_system(model, z, load, built.devices))
-        released = solve_by_steps(problem, z, _STEPS)
-        return LoadedLine(model, released.root.y, released.iterations)
+def _unpushed(built: BuiltLine, case: LoadCase, broken: Mask) -> tuple[LoadedLine, Loads]:
+    """Return the line under everything but pushes."""
+    model, warming = changed_model(built, case, broken), case.warming(built.line.reference_temperature)
+    loads = loads_on(built, model, case)
+    z = None
+    if warming != 0.0:
+        z = rest_when_warmed(built, warming)
+        z[model.length] = model.unknowns.start[model.length]
+        z[model.density[broken]] = 0.0
+    return at_rest(built, model, loads.on(model), z), loads
 
 
 def _pushed(

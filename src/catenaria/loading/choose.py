@@ -79,9 +79,7 @@ class Adjustable:
 
     def about(self, deviation: FloatArray, pull: FloatArray, change: FloatArray) -> Adjustable:
         """Return the same with deviations and forces that are known where lengths are changed already."""
-        return replace(
-            self, deviation=deviation - self.slope @ change, pull=pull - self.pull_slope @ change
-        )
+        return replace(self, deviation=deviation - self.slope @ change, pull=pull - self.pull_slope @ change)
 
     def fewest(self, tolerance: float) -> Choice | None:
         r"""Return a choice of fewest droppers with all deviations within a tolerance, or None.
@@ -92,7 +90,9 @@ class Adjustable:
         plus :math:`\sum |d| / (m \tau) < 1` is minimised.
         """
         m = self.deviation.size
-        answer = self._solve(1.0, np.full(m, 1.0 / (m * _MM * tolerance)), eye_array(m), tolerance, self.count)
+        answer = self._solve(
+            1.0, np.full(m, 1.0 / (m * _MM * tolerance)), eye_array(m), tolerance, self.count
+        )
         if answer.status == _INFEASIBLE:
             return None
         if answer.x is None or answer.status not in (_OPTIMAL, _STOPPED):
@@ -135,7 +135,7 @@ class Adjustable:
         upper = np.concatenate((high, np.ones(n), np.full(e, _MM * tolerance)))
         return milp(
             np.concatenate((np.zeros(n), np.full(n, each), cost)),
-            integrality=np.concatenate((np.ones(2 * n), np.zeros(e))),
+            integrality=np.repeat([1, 1, 0], [n, n, e]),
             bounds=Bounds(lower, upper),
             constraints=[*self._limits(band), *_counted(low, high, at_most, e)],
             options={"time_limit": SECONDS, "mip_rel_gap": _GAP},

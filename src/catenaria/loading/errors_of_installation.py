@@ -68,7 +68,7 @@ class ErrorSources:
         """How many errors there are, m."""
         return len(self.group)
 
-    def of(self, *groups: Group) -> NDArray[np.bool_]:
+    def of(self, *groups: str) -> NDArray[np.bool_]:
         """Return the mask of the errors of some groups."""
         return np.array([group in groups for group in self.group], dtype=np.bool_)
 

@@ -105,7 +105,9 @@ class _Finder:
                     yield self.measured.fault(row, "dropper", found, f"each dropper once; see line {line}")
             height = self._found_height(row)
             if abs(row.height - height) > _FARTHEST:
-                allowed = f"metres above the track, within {_FARTHEST:g} m of the {height:.3f} m that was found"
+                allowed = (
+                    f"metres above the track, within {_FARTHEST:g} m of the {height:.3f} m that was found"
+                )
                 yield self.measured.fault(row, "height_m", f"{row.height:g}", allowed)
 
     def place(self, row: MeasuredHeight) -> Place:
@@ -127,8 +129,8 @@ class _Finder:
     @property
     def _names(self) -> tuple[str, ...]:
         """Wires whose heights may be measured, contact wires first."""
-        lower = sorted(set(self.model.layout.droppers.lower.tolist()))
-        return tuple(self.model.layout.wires[k].name for k in lower)
+        below = np.unique(self.model.layout.droppers.lower)
+        return tuple(self.model.layout.wires[int(k)].name for k in below)
 
     @property
     def _wires(self) -> dict[str, int]:
@@ -154,12 +156,16 @@ class _Finder:
             x = self.line.support_x
             if x[0] <= row.chainage <= x[-1]:
                 return None
-            return fault(row, "chainage_m", f"{row.chainage:g}", f"{x[0]:g} to {x[-1]:g}, between the supports")
+            return fault(
+                row, "chainage_m", f"{row.chainage:g}", f"{x[0]:g} to {x[-1]:g}, between the supports"
+            )
         droppers, candidates = self.model.layout.droppers, self._candidates(row)
         spans = droppers.span[candidates]
         if row.span not in spans:
             return fault(row, "span", str(row.span), f"spans with droppers, {spans.min()} to {spans.max()}")
         numbers = droppers.number[candidates & (droppers.span == row.span)]
         if row.number not in numbers:
-            return fault(row, "dropper", str(row.number), f"{numbers.min()} to {numbers.max()} in span {row.span}")
+            return fault(
+                row, "dropper", str(row.number), f"{numbers.min()} to {numbers.max()} in span {row.span}"
+            )
         return None

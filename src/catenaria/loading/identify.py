@@ -15,6 +15,7 @@ FloatArray = NDArray[np.float64]
 SCATTER = 0.010  # m: standard deviation of built lengths from the schedule that is expected before measuring
 
 _PASSES = 20
+_RANK = 1e-9  # of the largest singular value: what is smaller is not determined
 _CHANGE = 1e-7  # m: lengths that change by less have been found
 
 
@@ -39,7 +40,7 @@ def identify(built: BuiltLine, gauged: GaugedPoints, height: FloatArray, noise: 
 
     Notes
     -----
-    The lengths l are the most probable ones if both deviations are normal (Tarantola 2005, eq. 3.45): with
+    The lengths l are the most probable ones if both deviations are normal (Tarantola 2005, chapter 3): with
     the schedule l_0 and the scatter sigma_l, the minimum of
 
     .. math:: \frac{|h(l) - h_m|^2}{\sigma_h^2} + \frac{|l - l_0|^2}{\sigma_l^2},
@@ -67,7 +68,12 @@ def _step(found: Response, scheduled: FloatArray, height: FloatArray, noise: flo
     S = found.gauged_slope
     wanted = height - found.gauged + S @ (found.length - scheduled)
     if noise == 0.0:
-        return np.linalg.lstsq(S, wanted)[0]
+        return _least_squares(S, wanted)
     n = scheduled.size
     rows = np.vstack((S / noise, np.eye(n) / SCATTER))
-    return np.linalg.lstsq(rows, np.concatenate((wanted / noise, np.zeros(n))))[0]
+    return _least_squares(rows, np.concatenate((wanted / noise, np.zeros(n))))
+
+
+def _least_squares(A: FloatArray, b: FloatArray) -> FloatArray:
+    """Return the smallest of all x with the least |A x - b|."""
+    return np.asarray(np.linalg.lstsq(A, b, rcond=_RANK)[0], dtype=np.float64)

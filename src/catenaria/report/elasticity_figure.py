@@ -31,7 +31,6 @@ def elasticity_figure(study: ElasticityStudy) -> Figure:
         style.describe(
             axes, f"(b) span {spans.span[k]}: non-uniformity {u:.1f} %", "chainage [m]", "elasticity [mm/N]"
         )
-        style.legend_above(axes)
     for row in panels:
         row[0].set_ylim(bottom=0.0)
     return figure
@@ -48,7 +47,8 @@ def _said(study: ElasticityStudy) -> str:
     limit = "".join(f" (limit {100.0 * u:.3g} %)" for u in study.nonuniformity_limit)
     return (
         f"{force}; {way}.\nIn {inner}: {1e3 * study.smallest:.3f} to {1e3 * study.largest:.3f} mm/N, "
-        f"non-uniformity {100.0 * study.nonuniformity:.1f} %{limit}. Dashed verticals: supports."
+        f"non-uniformity {100.0 * study.nonuniformity:.1f} %{limit}. "
+        "Dashed verticals: supports, triangles: droppers."
     )
 
 

@@ -125,6 +125,10 @@ class Adjustment:
         What was measured.
     droppers : AdjustedDroppers
         What is to be done.
+    supports : tuple of str
+        Names of the supports.
+    support_chainage : FloatArray
+        Where they are [m].
     fewest : int
         Number of droppers of which it is proved that fewer do not do.
     passes : int
@@ -142,6 +146,8 @@ class Adjustment:
     noise: float
     points: MeasuredPoints
     droppers: AdjustedDroppers
+    supports: tuple[str, ...]
+    support_chainage: FloatArray
     fewest: int
     passes: int
     inputs: dict[str, Any]
@@ -152,6 +158,6 @@ class Adjustment:
         return int(np.count_nonzero(self.droppers.adjusted))
 
     def largest_deviation(self, height: FloatArray) -> float:
-        """Return the largest deviation of contact wires from the wanted heights [m], for heights at droppers."""
+        """Return the largest deviation of heights at droppers, shape (n,), from the wanted ones [m]."""
         off = np.abs(height - self.droppers.wanted_height)[self.droppers.checked]
         return float(off.max(initial=0.0))

@@ -232,7 +232,7 @@ class CaseResult:
     pushed : Pushed
         What pushes do.
     iterations : int
-        Newton iterations.
+        Newton iterations of the last step to its rest.
     """
 
     name: str

@@ -20,6 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from catenaria.errors import InconsistentInputError
+from catenaria.results.adjustment import Adjustment
 from catenaria.results.case import LoadStudy
 from catenaria.results.codec import Arrays, decode, encode
 from catenaria.results.elasticity import ElasticityStudy
@@ -28,9 +29,18 @@ from catenaria.results.rounding import RoundingStudy
 from catenaria.results.structure import StructureForm
 from catenaria.results.tolerance import ToleranceStudy
 
-Stored = FormResult | StructureForm | LoadStudy | ElasticityStudy | RoundingStudy | ToleranceStudy
+Stored = (
+    FormResult | StructureForm | LoadStudy | ElasticityStudy | RoundingStudy | ToleranceStudy | Adjustment
+)
 Result = TypeVar(
-    "Result", FormResult, StructureForm, LoadStudy, ElasticityStudy, RoundingStudy, ToleranceStudy
+    "Result",
+    FormResult,
+    StructureForm,
+    LoadStudy,
+    ElasticityStudy,
+    RoundingStudy,
+    ToleranceStudy,
+    Adjustment,
 )
 
 FORMATS: dict[type, str] = {
@@ -40,6 +50,7 @@ FORMATS: dict[type, str] = {
     ElasticityStudy: "catenaria elasticity study",
     RoundingStudy: "catenaria rounding study",
     ToleranceStudy: "catenaria tolerance study",
+    Adjustment: "catenaria adjustment",
 }
 VERSION = 2
 JSON_NAME = "result.json"

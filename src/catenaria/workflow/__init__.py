@@ -1,12 +1,15 @@
 """The one place that wires line, method and result together."""
 
 from catenaria.formfinding.progress import Progress
+from catenaria.workflow.adjust import adjust, write_adjustment
 from catenaria.workflow.batch import BatchProgress, solve_many
 from catenaria.workflow.batch_table import BatchSummary, Row
 from catenaria.workflow.compare import Compared, compare, write_comparison
-from catenaria.workflow.elasticity import elasticity, write_elasticity
+from catenaria.workflow.elasticity import elasticity, elasticity_as, write_elasticity
+from catenaria.workflow.export import FORMATS, ExportOptions, export, formats_of, tables_schema
 from catenaria.workflow.loads import under_loads, write_loads
 from catenaria.workflow.methods import METHODS, NEGLECTS
+from catenaria.workflow.report import check_result, report, write_report
 from catenaria.workflow.rounding import rounding, write_rounding
 from catenaria.workflow.solve import Rebuild, solve
 from catenaria.workflow.solve_structure import solve_structure
@@ -17,30 +20,41 @@ from catenaria.workflow.write_network import write_network
 from catenaria.workflow.write_validation import write_validation
 
 __all__ = [
+    "FORMATS",
     "METHODS",
     "NEGLECTS",
     "BatchProgress",
     "BatchSummary",
     "CaseProgress",
     "Compared",
+    "ExportOptions",
     "Progress",
     "Rebuild",
     "Row",
     "ValidatedCase",
+    "adjust",
+    "check_result",
     "compare",
     "elasticity",
+    "elasticity_as",
+    "export",
+    "formats_of",
+    "report",
     "rounding",
     "solve",
     "solve_many",
     "solve_structure",
+    "tables_schema",
     "tolerances",
     "under_loads",
     "validate",
     "write",
+    "write_adjustment",
     "write_comparison",
     "write_elasticity",
     "write_loads",
     "write_network",
+    "write_report",
     "write_rounding",
     "write_tolerances",
     "write_validation",

@@ -6,7 +6,7 @@ import asyncio
 import logging
 from collections.abc import Callable, Generator, Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from itertools import islice
 from pathlib import Path
 from queue import Empty, Queue
@@ -15,6 +15,7 @@ from typing import Any, Generic, TypeVar
 
 from catenaria import __version__
 from catenaria.errors import InconsistentInputError, NotConvergedError, UnsupportedError
+from catenaria.workflow import deaf
 
 T = TypeVar("T")
 R = TypeVar("R")
@@ -22,9 +23,6 @@ R = TypeVar("R")
 CONNECT = 5.0  # s within which a scheduler and a worker must answer
 PATIENCE = 30.0  # s without any worker after which nothing more is expected
 _TICK = 1.0  # s between two looks at the cluster while nothing comes back
-
-# Ctrl-C in a terminal reaches all processes; only the one that the user has started acts on it.
-_DEAF = "import signal; signal.signal(signal.SIGINT, signal.SIG_IGN)"
 
 _EMBEDDED: dict[str, object] = {
     "distributed.scheduler.allowed-failures": 0,  # a job that kills its worker shall not kill three more
@@ -124,18 +122,22 @@ def local_cluster(function: Callable[[T], R], workers: int | None) -> Generator[
     dask, distributed = _libraries()
     if workers is not None and workers < 1:
         raise InconsistentInputError(f"{workers} workers: at least one is needed")
-    with (
-        dask.config.set(_EMBEDDED),
-        distributed.LocalCluster(
-            n_workers=workers,
-            threads_per_worker=1,
-            host="127.0.0.1",
-            scheduler_kwargs={"dashboard": False, "dashboard_address": "127.0.0.1:0"},
-            preload=[_DEAF],
-            silence_logs=logging.CRITICAL,
-        ) as cluster,
-        distributed.Client(cluster, set_as_default=False) as client,
-    ):
+    with ExitStack() as stack:
+        stack.enter_context(dask.config.set(_EMBEDDED))
+        try:
+            cluster = distributed.LocalCluster(
+                n_workers=workers,
+                threads_per_worker=1,
+                host="127.0.0.1",
+                scheduler_kwargs={"dashboard": False, "dashboard_address": "127.0.0.1:0"},
+                preload=[deaf.__name__],
+                silence_logs=logging.CRITICAL,
+            )
+        except (OSError, RuntimeError) as error:
+            reason = f"worker processes did not start ({error.__cause__ or error})"
+            raise NotConvergedError(reason, "the same command again, or with fewer workers") from error
+        stack.enter_context(cluster)
+        client = stack.enter_context(distributed.Client(cluster, set_as_default=False))
         yield Cluster(client, function)
 
 

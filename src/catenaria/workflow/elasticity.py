@@ -56,7 +56,6 @@ def elasticity(
     NotConvergedError, InfeasibleError
         If the line does not come to rest.
     """
-    line, result = found(source)
     wanted = Wanted(
         force,
         spacing,
@@ -66,6 +65,16 @@ def elasticity(
         () if elasticity_limit is None else (elasticity_limit,),
         () if nonuniformity_limit is None else (nonuniformity_limit,),
     )
+    return elasticity_as(source, wanted, progress)
+
+
+def elasticity_as(
+    source: FormResult | Line | str | os.PathLike[str],
+    wanted: Wanted,
+    progress: ElasticityListener | None = None,
+) -> ElasticityStudy:
+    """Return the elasticity of a found line as it is wanted; see `elasticity`."""
+    line, result = found(source)
     return elasticity_of(BuiltLine.of(line, result), wanted, progress)
 
 

@@ -7,9 +7,14 @@ from pathlib import Path
 
 from catenaria.report.tables import write_tables
 from catenaria.results import FormResult, replace_folder, save_result
+from catenaria.workflow.report import report as page_of
+
+REPORT_NAME = "report.html"
 
 
-def write(result: FormResult, folder: str | os.PathLike[str], figures: bool = True) -> tuple[Path, ...]:
+def write(
+    result: FormResult, folder: str | os.PathLike[str], figures: bool = True, report: bool = False
+) -> tuple[Path, ...]:
     """Write a result with its tables and figures into a folder, all of it or nothing.
 
     Parameters
@@ -20,6 +25,8 @@ def write(result: FormResult, folder: str | os.PathLike[str], figures: bool = Tr
         Where to; an earlier result in it is replaced, anything else is not touched.
     figures : bool
         Whether to draw figures.
+    report : bool
+        Whether to write ``report.html`` as well.
 
     Returns
     -------
@@ -33,6 +40,8 @@ def write(result: FormResult, folder: str | os.PathLike[str], figures: bool = Tr
     """
     with replace_folder(folder) as new:
         fill(result, new, figures)
+        if report:
+            (new / REPORT_NAME).write_text(page_of(result), encoding="utf-8")
         names = sorted(path.relative_to(new) for path in new.rglob("*") if path.is_file())
     return tuple(Path(folder) / name for name in names)
 

@@ -9,6 +9,9 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
+from catenaria.discretise.spatial.loaded import warmed
+from catenaria.loading.rest import rest_when_warmed
+
 Make = Callable[..., Any]
 
 ALPHA, G = 17e-6, 9.80665
@@ -118,3 +121,26 @@ def test_droppers_grow_too(make: Make) -> None:
 def _without_expansion(line: Any) -> dict[str, Any]:
     conductor = line.line.conductor("dropper").model_dump(exclude_none=True)
     return conductor | {"thermal_expansion": 0.0}
+
+
+def test_steps_of_temperature_lead_where_one_step_leads(make: Make) -> None:
+    line, warming = make(), 35.0
+    stepped = rest_when_warmed(line.built, warming)
+    built = line.built
+    model = warmed(built.model, warming, built.expansion.tolist(), built.dropper_expansion)
+    at_once = built.under(model=model).z
+    place = model.wires[0].nodes[:, :3]
+    np.testing.assert_allclose(stepped[place], at_once[place], atol=1e-8)
+    other = rest_when_warmed(built, 34.9)
+    assert np.abs(other[place] - at_once[place]).max() > 1e-5
+
+
+@pytest.mark.parametrize("warming", [80.0, -80.0])
+def test_more_than_takes_all_strain_from_a_wire(make: Make, warming: float) -> None:
+    """Between devices a wire gives way; 80 K are more than the strain of either wire."""
+    line = make(stagger=(0.2, -0.2, 0.2, -0.2))
+    case = line.under(temperature={"change": warming})
+    assert 17e-6 * 80.0 > 15e3 / 14.4e6
+    np.testing.assert_allclose(case.state.wires[0].force_end, 15e3, rtol=1e-9)
+    stroke = case.state.wires[0].travel - line.before.wires[0].travel
+    assert 2.0 * stroke == pytest.approx(ALPHA * warming * line.result.wires[0].profile.s[-1], rel=4e-3)

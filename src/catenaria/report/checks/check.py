@@ -118,7 +118,9 @@ def by_limit(name: str, rule: Rule[Quantity], limit: float | str, found: Found) 
     )
 
 
-def stated(name: str, value: float, unit: str, place: str = "", why: str = "no rule: for information") -> Check:
+def stated(
+    name: str, value: float, unit: str, place: str = "", why: str = "no rule: for information"
+) -> Check:
     """State a value without judging it."""
     return Check(name, "", "", "", value, unit, "", None, place, "not judged", why)
 

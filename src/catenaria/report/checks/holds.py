@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from catenaria.line.load_units import Force
 from catenaria.report.checks.check import Check, Found, by_limit, first_largest, judged
 from catenaria.report.checks.rules import Rule, Rules
 from catenaria.report.checks.running import contact_wires, running
 from catenaria.results import FormResult, WireForm
-from catenaria.line.load_units import Force
 from catenaria.units import NonNegativeLength
 
 

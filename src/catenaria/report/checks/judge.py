@@ -76,7 +76,7 @@ def _elasticity_checks(study: ElasticityStudy | None, rules: Rules, speed: float
     name, rule = "non-uniformity of elasticity", rules.nonuniformity
     if study is None:
         return [] if rule is None else [judged(name, rule, speed, _NOT_STUDIED)]
-    checks = [stated("largest elasticity", 1e3 * study.largest, "mm/N")]
+    checks = [stated("largest elasticity", 1e3 * study.largest, "mm/N", "inner spans")]
     if rule is None:
         return checks
     why = f"with {study.force:g} N" if study.force > 0.0 else "limit of a small push"

@@ -1,4 +1,4 @@
-"""Where pantographs run along a contact wire: not where it is lifted to its anchors beyond the last droppers."""
+"""Where pantographs run along a contact wire: not where it is lifted to its anchors beyond the droppers."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from catenaria.results import FormResult, WireForm
 
 FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.int64]
 
 LIFTED = 0.15  # m: a wire that a span without droppers follows on is out of reach if it is higher by more
 
@@ -42,7 +43,8 @@ class Running:
         """What one must know of bays that are left out."""
         if not self.left_out or not self.support:
             return ""
-        return f"from {self.support[0]} to {self.support[-1]}: beyond them the wire has no droppers, or is lifted"
+        used = f"from {self.support[0]} to {self.support[-1]}"
+        return f"{used}: beyond them the wire has no droppers, or is lifted"
 
 
 def contact_wires(result: FormResult) -> list[WireForm]:
@@ -68,10 +70,11 @@ def running(result: FormResult, wire: WireForm) -> Running:
     last = x.size - _left_out(count[::-1], z[::-1])
     if last - first < 2:
         first, last = 0, x.size
-    kept = held[first:last]
+    kept: IntArray = held[first:last]
+    names: list[str] = [supports.support[i] for i in kept.tolist()]
     return Running(
         wire=wire.name,
-        support=tuple(supports.support[i] for i in kept),
+        support=tuple(names),
         chainage=supports.chainage[kept],
         height=supports.height[kept],
         stagger=supports.stagger[kept],
@@ -84,7 +87,7 @@ def result_role(result: FormResult, name: str) -> str:
     return result.wire(name).role
 
 
-def _left_out(count: NDArray[np.int64], height: FloatArray) -> int:
+def _left_out(count: IntArray, height: FloatArray) -> int:
     """Return how many bays, seen from an end, are out of use."""
     bays = 0
     while bays < count.size and count[bays] == 0:

@@ -26,7 +26,9 @@ def wave_checks(result: FormResult, rules: Rules, speed: float | None, line: Lin
         checks.append(judged("speed by wave speed", rules.wave_speed, speed, found))
     for wire in (*contact, *above):
         checks.append(stated("wave speed", 3.6 * wave_speed(*_of(line, [wire])), "km/h", wire.name))
-    checks.append(stated("wave speed", 3.6 * wave_speed(*_of(line, [*contact, *above])), "km/h", "whole line"))
+    checks.append(
+        stated("wave speed", 3.6 * wave_speed(*_of(line, [*contact, *above])), "km/h", "whole line")
+    )
     if simple:
         checks += _factors(reflection_factor(_of(line, contact), _of(line, above)), c, speed)
     return checks
@@ -57,4 +59,8 @@ def _factors(reflection: float, c: float, speed: float | None) -> list[Check]:
         return checks
     doppler = doppler_factor(c, speed)
     at = f"{3.6 * speed:.4g} km/h"
-    return [*checks, stated("Doppler factor", doppler, "", at), stated("amplification", reflection / doppler, "", at)]
+    return [
+        *checks,
+        stated("Doppler factor", doppler, "", at),
+        stated("amplification", reflection / doppler, "", at),
+    ]

@@ -1,7 +1,7 @@
 """Figures for Plotly as plain data: traces, layouts, and colours that follow the theme of the page.
 
-A colour is the name of a property of the style sheet, ``var(--contact)``: the page's script puts in what it is
-when it draws, so that one figure serves light, dark and paper.
+A colour is the name of a property of the style sheet, ``var(--contact)``: the page's script puts in what it
+is when it draws, so that one figure serves light, dark and paper.
 """
 
 from __future__ import annotations
@@ -134,7 +134,9 @@ def points(
     }
 
 
-def bars(x: FloatArray, low: FloatArray, high: FloatArray, name: str, of: str, *, legend: bool = True) -> Trace:
+def bars(
+    x: FloatArray, low: FloatArray, high: FloatArray, name: str, of: str, *, legend: bool = True
+) -> Trace:
     """Return upright lines, all in one trace."""
     gap = np.full(x.size, np.nan)
     return {
@@ -150,7 +152,9 @@ def bars(x: FloatArray, low: FloatArray, high: FloatArray, name: str, of: str, *
     }
 
 
-def layout(x: tuple[float, float], quantity: str, supports: Mapping[str, float], **more: Any) -> dict[str, Any]:
+def layout(
+    x: tuple[float, float], quantity: str, supports: Mapping[str, float], **more: Any
+) -> dict[str, Any]:
     """Return axes with chainage below, and marks of supports.
 
     Parameters

@@ -1,4 +1,4 @@
-"""The figures of a page over the length of a line: profile, contact wire against wanted heights, plan, tensions."""
+"""The figures of a page over the length of a line: profile, height errors, plan, tensions."""
 
 from __future__ import annotations
 
@@ -98,7 +98,7 @@ def _within(x: FloatArray, window: Window) -> Mask:
 def _wires(
     result: FormResult, window: Window, named: set[str], across: Callable[[WireForm], FloatArray], hover: str
 ) -> list[Trace]:
-    """Draw all wires; what is across is height or lateral offset, further numbers are the other and the tension."""
+    """Draw all wires; what is across is their height or lateral offset."""
     traces: list[Trace] = []
     for wire in result.wires:
         profile = wire.profile
@@ -139,7 +139,9 @@ def _profile(result: FormResult, window: Window, named: set[str]) -> list[Trace]
     if slack.any():
         marked = [text for text, loose in zip(texts, slack, strict=True) if loose]
         middle = 0.5 * (low + high)[slack]
-        traces.append(drawing.points(x[slack], middle, "slack dropper", colour("fails"), marked, symbol="x", size=8))
+        traces.append(
+            drawing.points(x[slack], middle, "slack dropper", colour("fails"), marked, symbol="x", size=8)
+        )
     return traces
 
 
@@ -147,7 +149,8 @@ def _dropper(result: FormResult, i: int) -> str:
     d = result.droppers
     return (
         f"<b>dropper {d.span[i]}.{d.number[i]}</b><br>chainage {d.x[i]:.2f} m<br>length {d.length[i]:.4f} m, "
-        f"cut to {d.cut_length[i]:.4f} m<br>force below {d.force_bottom[i]:.1f} N, above {d.force_top[i]:.1f} N<br>"
+        f"cut to {d.cut_length[i]:.4f} m<br>force below {d.force_bottom[i]:.1f} N, "
+        f"above {d.force_top[i]:.1f} N<br>"
         f"height {d.height[i]:.4f} m, wanted {d.target_height[i]:.4f} m"
     )
 
@@ -155,43 +158,42 @@ def _dropper(result: FormResult, i: int) -> str:
 def _above_wanted(
     result: FormResult, window: Window, named: set[str], tolerance: float | None
 ) -> list[Trace]:
-    traces: list[Trace] = []
-    droppers, lower = result.droppers, np.array(result.droppers.lower_wire)
-    for wire in result.wires:
-        held = lower == wire.name
-        if wire.role != "contact wire" or np.count_nonzero(held) < 2:
-            continue
-        x, profile = droppers.x[held], wire.profile
-        order = np.argsort(x, kind="stable")
-        inside = (max(window[0], float(x.min())), min(window[1], float(x.max())))
-        here = np.flatnonzero(_within(profile.chainage, inside))
-        at = profile.chainage[here]
-        above = 1e3 * (profile.height[here] - np.interp(at, x[order], droppers.target_height[held][order]))
-        kept = thinned(at, (above,))
-        if tolerance is not None and "band" not in named:
-            named.add("band")
-            traces += _band(inside, 1e3 * tolerance)
-        hover = "chainage %{x:.2f} m<br>%{y:.2f} mm above wanted<br>height %{customdata[0]:.4f} m"
-        traces.append(
-            drawing.line(
-                at[kept],
-                above[kept],
-                wire.name,
-                wire_colour(wire.name, wire.role),
-                hover,
-                extra=(profile.height[here][kept],),
-                digits=4,
-            )
-        )
-    here = np.flatnonzero(_within(droppers.x, window) & np.isin(lower, [w.name for w in result.wires if w.role == "contact wire"]))
+    contact = [wire for wire in result.wires if wire.role == "contact wire"]
+    lines = [trace for wire in contact for trace in _line_above_wanted(result, wire, window)]
+    droppers = result.droppers
+    own = np.isin(droppers.lower_wire, [wire.name for wire in contact]) & _within(droppers.x, window)
+    here = np.flatnonzero(own)
     texts = [_dropper(result, int(i)) for i in here]
     error = 1e3 * droppers.height_error[here]
-    return [*traces, drawing.points(droppers.x[here], error, "at droppers", colour("ink"), texts, size=5)]
+    marks = drawing.points(droppers.x[here], error, "at droppers", colour("ink"), texts, size=5)
+    return [*([] if tolerance is None else _band(window, 1e3 * tolerance)), *lines, marks]
+
+
+def _line_above_wanted(result: FormResult, wire: WireForm, window: Window) -> list[Trace]:
+    """Draw a contact wire between its first and its last dropper."""
+    droppers, profile = result.droppers, wire.profile
+    own = np.flatnonzero([name == wire.name for name in droppers.lower_wire])
+    if own.size < 2:
+        return []
+    own = own[np.argsort(droppers.x[own], kind="stable")]
+    x = droppers.x[own]
+    inside = (max(window[0], float(x[0])), min(window[1], float(x[-1])))
+    here = np.flatnonzero(_within(profile.chainage, inside))
+    if not here.size:
+        return []
+    at = profile.chainage[here]
+    above = 1e3 * (profile.height[here] - np.interp(at, x, droppers.target_height[own]))
+    kept = thinned(at, (above,))
+    hover = "chainage %{x:.2f} m<br>%{y:.2f} mm above wanted<br>height %{customdata[0]:.4f} m"
+    of, height = wire_colour(wire.name, wire.role), profile.height[here][kept]
+    return [drawing.line(at[kept], above[kept], wire.name, of, hover, extra=(height,), digits=4)]
 
 
 def _band(window: Window, half: float) -> list[Trace]:
     x, name = np.array(window), f"tolerance at droppers: ±{half:g} mm"
-    low = drawing.line(x, np.full(2, -half), name, colour("band-edge"), "", width=1.0, dash="dash", legend=False)
+    low = drawing.line(
+        x, np.full(2, -half), name, colour("band-edge"), "", width=1.0, dash="dash", legend=False
+    )
     high = drawing.line(x, np.full(2, half), name, colour("band-edge"), "", width=1.0, dash="dash")
     silent = {"hoverinfo": "skip", "hovertemplate": None}
     return [low | silent, high | silent | {"fill": "tonexty", "fillcolor": colour("band")}]
@@ -208,16 +210,18 @@ def _plan(result: FormResult, window: Window, named: set[str]) -> list[Trace]:
         tips = np.array([tip[arms.support[i], arms.wire[i]] for i in here])
         x, hinge, ink = arms.chainage[here], arms.hinge_stagger[here], colour("ink")
         traces.append(drawing.bars(x, hinge, tips, "steady arm", ink))
-        traces.append(drawing.points(x, hinge, "steady arm", ink, [_arm(result, int(i)) for i in here], legend=False))
+        traces.append(
+            drawing.points(x, hinge, "steady arm", ink, [_arm(result, int(i)) for i in here], legend=False)
+        )
     return traces
 
 
 def _arm(result: FormResult, i: int) -> str:
     arms = result.arms
     return (
-        f"<b>steady arm at {plain(arms.support[i])}</b>, {arms.registration[i]}<br>radial {arms.radial[i]:.1f} N, "
-        f"vertical {arms.vertical[i]:.1f} N<br>hinge {1e3 * arms.hinge_stagger[i]:.0f} mm to the left, "
-        f"{arms.hinge_height[i]:.3f} m high"
+        f"<b>steady arm at {plain(arms.support[i])}</b>, {arms.registration[i]}<br>"
+        f"radial {arms.radial[i]:.1f} N, vertical {arms.vertical[i]:.1f} N<br>"
+        f"hinge {1e3 * arms.hinge_stagger[i]:.0f} mm to the left, {arms.hinge_height[i]:.3f} m high"
     )
 
 
@@ -225,15 +229,22 @@ def _tension(result: FormResult, wire: WireForm, number: int) -> Drawing:
     profile, wanted = wire.profile, wire.target_tension
     kept = thinned(profile.chainage, (profile.tension, profile.moment), most=1500)
     x, tension = profile.chainage[kept], profile.tension[kept]
-    hover = "chainage %{x:.2f} m<br>tension %{y:.1f} N<br>height %{customdata[0]:.4f} m<br>moment %{customdata[1]:.3g} N m"
+    hover = (
+        "chainage %{x:.2f} m<br>tension %{y:.1f} N<br>height %{customdata[0]:.4f} m<br>"
+        "moment %{customdata[1]:.3g} N m"
+    )
     extra = (profile.height[kept], profile.moment[kept])
     window = extent(result)
     level = np.array(window)
+    held, own = np.full(2, wanted), wire_colour(wire.name, wire.role)
+    label, quiet = f"wanted: {wanted:.0f} N", colour("quiet")
     data = [
-        drawing.line(level, np.full(2, wanted), f"wanted: {wanted:.0f} N", colour("quiet"), "wanted %{y:.1f} N", dash="dash", width=1.2),
-        drawing.line(x, tension, wire.name, wire_colour(wire.name, wire.role), hover, extra=extra, digits=1),
-    ]  # fmt: skip
-    layout = drawing.layout(window, "tension [N]", support_places(result), range=_tension_range(tension, wanted))
+        drawing.line(level, held, label, quiet, "wanted %{y:.1f} N", dash="dash", width=1.2),
+        drawing.line(x, tension, wire.name, own, hover, extra=extra, digits=1),
+    ]
+    layout = drawing.layout(
+        window, "tension [N]", support_places(result), range=_tension_range(tension, wanted), tickformat=".0f"
+    )
     return Drawing(f"tension-{number}", f"Tension along the {wire.name}", _HEIGHT, data, layout)
 
 

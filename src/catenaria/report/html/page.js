@@ -25,6 +25,8 @@
     const layout = resolved(one.layout, style);
     const width = onPaper ?? place.clientWidth;
     layout.width = width;
+    layout.height = Math.round(one.layout.height * (onPaper ? 0.82 : 1));
+    place.style.height = layout.height + "px";
     if (width < narrow) {
       layout.margin = {...layout.margin, l: 58, r: 6};
       layout.font = {...layout.font, size: 11};

@@ -94,9 +94,6 @@ def page(contents: Contents) -> str:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    environment.filters.update(
-        number=lambda check: study_tables.number(check.value, check.unit), limit=study_tables.limit
-    )
     return environment.get_template("template.html.j2").render(_context(contents, environment))
 
 
@@ -137,7 +134,9 @@ def _figures(contents: Contents) -> dict[str, list[Drawing]]:
         "heights": figures.height_figures(result, tolerance),
         "plan": figures.plan_figures(result),
         "tension": figures.tension_figures(result),
-        "elasticity": [] if contents.elasticity is None else [study_figures.elasticity_figure(contents.elasticity)],
+        "elasticity": []
+        if contents.elasticity is None
+        else [study_figures.elasticity_figure(contents.elasticity)],
         "cases": [] if contents.loads is None else study_figures.case_figures(contents.loads),
     }
 

@@ -16,7 +16,7 @@ _TOP, _AUXILIARY, _CONTACT, _GROUND = 24.0, 66.0, 84.0, 112.0
 
 @dataclass(frozen=True)
 class Mast:
-    """A support: where it is drawn, its name, and whether it holds the contact wire, with an arm or without."""
+    """A support: where it is drawn, its name, and how it holds the contact wire."""
 
     x: float
     name: str
@@ -27,11 +27,12 @@ class Mast:
 
 @dataclass(frozen=True)
 class Bay:
-    """A span: where it is drawn, what is written below, and places and upper ends of its droppers."""
+    """A span: where it is drawn, what is written below in two lines, places and upper ends of its droppers."""
 
     x0: float
     x1: float
-    label: str
+    length: str
+    count: str
     droppers: tuple[tuple[float, float], ...]
     upper_droppers: tuple[tuple[float, float], ...]
 
@@ -61,7 +62,7 @@ class Sketch:
     auxiliary_y: float = _AUXILIARY
     contact: float = _CONTACT
     ground: float = _GROUND
-    height: float = _GROUND + 26.0
+    height: float = _GROUND + 36.0
 
 
 def sketch(result: FormResult, line: Line) -> Sketch:
@@ -70,7 +71,9 @@ def sketch(result: FormResult, line: Line) -> Sketch:
     rows = -(-count // _SPANS)
     each = -(-count // rows)
     return Sketch(
-        rows=tuple(_row(result, line, first, min(first + each, count), each) for first in range(0, count, each)),
+        rows=tuple(
+            _row(result, line, first, min(first + each, count), each) for first in range(0, count, each)
+        ),
         auxiliary=line.auxiliary_messenger is not None,
         second=line.second_contact_wire is not None,
     )
@@ -112,7 +115,8 @@ def _bay(result: FormResult, line: Line, span: int, x0: float, x1: float) -> Bay
     return Bay(
         x0,
         x1,
-        f"{length:g} m, {count} droppers" if count != 1 else f"{length:g} m, 1 dropper",
+        f"{length:g} m",
+        f"{count} dropper{'' if count == 1 else 's'}",
         tuple(place(int(i), compound) for i in lower),
         tuple(place(int(i), False) for i in upper),
     )

@@ -42,21 +42,30 @@ def case_figures(study: LoadStudy) -> list[Drawing]:
     states = {_AS_BUILT: study.before, **{case.name: case.state for case in study.cases[:_MOST_CASES]}}
     wires = [wire for wire in study.before.wires if wire.role == "contact wire"]
     x = (min(float(wire.chainage.min()) for wire in wires), max(float(wire.chainage.max()) for wire in wires))
+    few = f", the first {_MOST_CASES} of them" if len(study.cases) > _MOST_CASES else ""
     figures = [
         Drawing(
             "cases-height",
-            "Height of the contact wire under load cases",
+            f"Height of the contact wire under load cases{few}",
             340,
-            [trace for i, (name, state) in enumerate(states.items()) for trace in _state(state, name, i, "height")],
+            [
+                trace
+                for i, (name, state) in enumerate(states.items())
+                for trace in _state(state, name, i, "height")
+            ],
             drawing.layout(x, "height [m]", supports),
         )
     ]
     if _deviates(study):
         lateral = [
-            trace for i, (name, state) in enumerate(states.items()) for trace in _state(state, name, i, "lateral")
+            trace
+            for i, (name, state) in enumerate(states.items())
+            for trace in _state(state, name, i, "lateral")
         ]
         layout = drawing.layout(x, "to the left [m]", supports)
-        figures.append(Drawing("cases-lateral", "Contact wire from above under load cases", 340, lateral, layout))
+        figures.append(
+            Drawing("cases-lateral", f"Contact wire from above under load cases{few}", 340, lateral, layout)
+        )
     return figures
 
 
@@ -64,17 +73,30 @@ def _state(state: LineState, name: str, number: int, quantity: str) -> list[Trac
     """Draw the contact wires of one state, all with the label of the state."""
     built = name == _AS_BUILT and number == 0
     of = colour("ink") if built else colour(_CYCLE[(number - 1) % len(_CYCLE)])
+    dash = "dash" if built else "solid" if number <= len(_CYCLE) else "dot"
     traces: list[Trace] = []
     for wire in state.wires:
         if wire.role != "contact wire":
             continue
         y: FloatArray = getattr(wire, quantity)
-        kept = thinned(wire.chainage, (y,), most=1200)
-        hover = "chainage %{x:.2f} m<br>height %{customdata[0]:.4f} m<br>to the left %{customdata[1]:.1f} mm<br>tension %{customdata[2]:.0f} N"
+        kept = thinned(wire.chainage, (y,), most=600)
+        hover = (
+            "chainage %{x:.2f} m<br>height %{customdata[0]:.4f} m<br>"
+            "to the left %{customdata[1]:.1f} mm<br>tension %{customdata[2]:.0f} N"
+        )
         extra = (wire.height[kept], 1e3 * wire.lateral[kept], wire.tension[kept])
-        dash = "dash" if built else "solid"
         traces.append(
-            drawing.line(wire.chainage[kept], y[kept], name, of, hover, extra=extra, dash=dash, width=1.4, legend=not traces)
+            drawing.line(
+                wire.chainage[kept],
+                y[kept],
+                name,
+                of,
+                hover,
+                extra=extra,
+                dash=dash,
+                width=1.4,
+                legend=not traces,
+            )
         )
     return traces
 

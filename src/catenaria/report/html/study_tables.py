@@ -15,7 +15,7 @@ from catenaria.results.elasticity import ElasticityStudy
 _BOUND = {"at most": "≤", "at least": "≥", "more than": ">"}
 
 
-def number(value: float | None, unit: str) -> str:
+def number(size: float | None, unit: str) -> str:
     """Return a value with its unit, to as many digits as an engineer compares.
 
     Examples
@@ -23,11 +23,16 @@ def number(value: float | None, unit: str) -> str:
     >>> number(0.0, "‰"), number(1.97392, "‰"), number(389.0222, "km/h"), number(None, "m")
     ('0 ‰', '1.974 ‰', '389 km/h', '')
     """
-    if value is None:
+    if size is None:
         return ""
-    rounded = round(value, 3) + 0.0
+    rounded = round(size, 3) + 0.0
     text = f"{rounded:.4g}" if abs(rounded) < 1e4 else f"{rounded:.0f}"
     return f"{text} {unit}".strip()
+
+
+def value(check: Check) -> str:
+    """Return the value of a check with its unit."""
+    return number(check.value, check.unit)
 
 
 def limit(check: Check) -> str:
@@ -42,7 +47,7 @@ def figure_table(checks: Sequence[Check]) -> Table:
         (
             column("", "", [check.name for check in checks]),
             column("of", "", [check.place for check in checks]),
-            column("value", "", [number(check.value, check.unit) for check in checks]),
+            column("value", "", [value(check) for check in checks]),
         ),
     )
 
@@ -92,8 +97,9 @@ def case_table(study: LoadStudy) -> Table:
         ("furthest aside", "m", "largest_lateral_m", ".4f"),
         ("uplift at supports", "m", "support_uplift_m", ".4f"),
         ("uplift at pushes", "m", "push_uplift_m", ".4f"),
-        ("slack droppers", "", "slack_droppers", ""),
+        ("slack droppers", "", "slack_droppers", "d"),
         ("least dropper force", "N", "dropper_force_min_N", ".1f"),
         ("largest dropper force", "N", "dropper_force_max_N", ".1f"),
     )
+    values["slack_droppers"] = [int(count) for count in values["slack_droppers"]]
     return Table("", tuple(column(name, unit, values[of], form) for name, unit, of, form in shown))

@@ -52,7 +52,9 @@ def column(name: str, unit: str, values: Iterable[Any], form: str = "") -> Colum
     ('60.0', '', '0.0')
     """
     items: list[Any] = np.asarray(list(values)).tolist()
-    numeric = bool(items) and all(isinstance(item, int | float) and not isinstance(item, bool) for item in items)
+    numeric = bool(items) and all(
+        isinstance(item, int | float) and not isinstance(item, bool) for item in items
+    )
     return Column(name, unit, tuple(_cell(item, form) for item in items), numeric)
 
 

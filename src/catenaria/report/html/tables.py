@@ -22,7 +22,10 @@ def _dropper_table(result: FormResult, span: int, unfolded: bool) -> Table:
     d = result.droppers
     own = np.flatnonzero(d.span == span)
     several = len(set(zip(d.lower_wire, d.upper_wire, strict=True))) > 1
-    wires = [column("holds", "", [d.lower_wire[i] for i in own]), column("from", "", [d.upper_wire[i] for i in own])]
+    wires = [
+        column("holds", "", [d.lower_wire[i] for i in own]),
+        column("from", "", [d.upper_wire[i] for i in own]),
+    ]
     return Table(
         f"Span {span}: {own.size} dropper{'s' if own.size != 1 else ''}",
         (

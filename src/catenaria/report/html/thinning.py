@@ -31,7 +31,7 @@ def thinned(x: FloatArray, values: tuple[FloatArray, ...], most: int = 600) -> I
     """
     if x.size <= most:
         return np.arange(x.size)
-    edges = np.linspace(x.min(), x.max(), most + 1)
+    edges: FloatArray = np.linspace(float(x.min()), float(x.max()), most + 1)
     interval = np.clip(np.searchsorted(edges, x, side="right") - 1, 0, most - 1)
     kept = {0, x.size - 1}
     for y in (x, *values):

@@ -1,0 +1,84 @@
+"""The dropper schedule, with the lengths to which droppers are cut rounded to steps of a rule."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from catenaria.errors import InconsistentInputError
+from catenaria.report.columns import Columns
+from catenaria.report.tables import write_csv
+from catenaria.results import FormResult
+
+FloatArray = NDArray[np.float64]
+
+_DIGITS = 6  # of length by step: what is half a step within rounding errors is half a step
+
+
+def rounded_lengths(length: FloatArray, step: float) -> FloatArray:
+    """Return lengths rounded to whole steps, halves upwards.
+
+    Raises
+    ------
+    InconsistentInputError
+        If the step is not positive, or nothing is left of a length.
+
+    Examples
+    --------
+    >>> rounded_lengths(np.array([1.0024, 1.0025, 1.0075]), 0.005).tolist()
+    [1.0, 1.005, 1.01]
+    """
+    if not step > 0.0:
+        raise InconsistentInputError(f"dropper lengths are rounded to a step above 0 m, not to {step:g} m")
+    rounded = np.round(step * np.floor(np.round(length / step, _DIGITS) + 0.5), 12)
+    if length.size and not rounded.min() > 0.0:
+        raise InconsistentInputError(
+            f"rounded to {step:g} m, nothing is left of a dropper that is cut to {length.min():.4g} m"
+        )
+    return rounded
+
+
+def schedule_columns(result: FormResult, step: float) -> Columns:
+    """Return the dropper schedule, one row for each dropper in the order of the line.
+
+    Parameters
+    ----------
+    result : FormResult
+        What was found.
+    step : float
+        Cut lengths are also given rounded to whole steps [m].
+    """
+    droppers = result.droppers
+    rounded = rounded_lengths(droppers.cut_length, step)
+    return {
+        "span": droppers.span,
+        "dropper": droppers.number,
+        "chainage_m": droppers.x,
+        "upper_wire": droppers.upper_wire,
+        "lower_wire": droppers.lower_wire,
+        "cut_length_rounded_m": rounded,
+        "cut_length_m": droppers.cut_length,
+        "rounding_mm": 1e3 * (rounded - droppers.cut_length),
+        "unstressed_length_m": droppers.unstressed_length,
+        "length_m": droppers.length,
+        "force_bottom_N": droppers.force_bottom,
+        "force_top_N": droppers.force_top,
+        "height_m": droppers.height,
+        "height_error_mm": 1e3 * droppers.height_error,
+        "stagger_m": droppers.stagger_bottom,
+        "inclination_deg": np.degrees(droppers.inclination),
+    }
+
+
+def dropper_labels(result: FormResult) -> list[str]:
+    """Return the numbers of droppers in drawings and tables: 2.3 is the third of the second span."""
+    droppers = result.droppers
+    pairs = zip(droppers.span.tolist(), droppers.number.tolist(), strict=True)
+    return [f"{span}.{number}" for span, number in pairs]
+
+
+def write_schedule(result: FormResult, file: Path, step: float) -> None:
+    """Write the dropper schedule as CSV, with the unit in every column name."""
+    write_csv(file, schedule_columns(result, step))

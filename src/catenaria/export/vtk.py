@@ -1,0 +1,110 @@
+"""The configuration as a VTK file of lines in space, for ParaView."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from catenaria.discretise.spatial.lay_out import lay_out
+from catenaria.export.libraries import library
+from catenaria.line import Line
+from catenaria.results import FormResult
+
+FloatArray = NDArray[np.float64]
+
+WIRE, DROPPER, ARM, CANTILEVER = range(4)
+_POINT = ("s_m", "tension_N", "moment_Nm", "curvature_per_m", "chainage_m", "lateral_m", "height_m")
+
+
+@dataclass(frozen=True)
+class Strand:
+    """A polyline of one kind: points (n, 3), values at them (n, 7), and what its cells bear [N]."""
+
+    kind: int
+    wire: int
+    number: int
+    points: FloatArray
+    values: FloatArray
+    force: FloatArray
+
+
+def write_vtu(result: FormResult, file: Path) -> None:
+    """Write wires, droppers, arms and cantilevers as cells of two points each.
+
+    Parameters
+    ----------
+    result : FormResult
+        What was found.
+    file : path
+        With suffix ``.vtu``.
+
+    Notes
+    -----
+    Cell data: ``kind`` (0 wire, 1 dropper, 2 steady arm, 3 cantilever), ``wire`` (number in the order of
+    wires.csv from 0, of droppers that of their lower wire), ``number`` (of the dropper or arm in its table,
+    from 0) and ``force_N``: tension in wires, droppers' pull on the lower wire, axial force in arms. Point
+    data: s_m, tension_N, moment_Nm, curvature_per_m, chainage_m, lateral_m, height_m; NaN where it has no
+    meaning.
+
+    Raises
+    ------
+    UnsupportedError
+        If meshio is not installed.
+    """
+    meshio = library("meshio", "meshio", "VTK")
+    strands = list(_strands(result))
+    counts = np.array([strand.points.shape[0] for strand in strands])
+    first = np.concatenate(([0], np.cumsum(counts)[:-1]))
+    own = zip(first.tolist(), counts.tolist(), strict=True)
+    starts = np.concatenate([np.arange(start, start + n - 1, dtype=np.int64) for start, n in own])
+    values = np.concatenate([strand.values for strand in strands])
+    cell = {
+        "kind": np.repeat([strand.kind for strand in strands], counts - 1).astype(np.int32),
+        "wire": np.repeat([strand.wire for strand in strands], counts - 1).astype(np.int32),
+        "number": np.repeat([strand.number for strand in strands], counts - 1).astype(np.int32),
+        "force_N": np.concatenate([strand.force for strand in strands]),
+    }
+    mesh = meshio.Mesh(
+        np.concatenate([strand.points for strand in strands]),
+        [("line", np.column_stack((starts, starts + 1)))],
+        point_data={name: np.ascontiguousarray(values[:, i]) for i, name in enumerate(_POINT)},
+        cell_data={name: [data] for name, data in cell.items()},
+    )
+    mesh.write(file, file_format="vtu")
+
+
+def _strands(result: FormResult) -> Iterator[Strand]:
+    laid = lay_out(Line.model_validate(result.inputs)).wires
+    index = {wire.name: k for k, wire in enumerate(result.wires)}
+    for k, (form, wire) in enumerate(zip(result.wires, laid, strict=True)):
+        profile = form.profile
+        EJ = wire.section.EJ
+        curvature = profile.moment / EJ if EJ > 0.0 else np.full_like(profile.moment, np.nan)
+        track = (profile.chainage, profile.lateral, profile.height)
+        values = np.column_stack((profile.s, profile.tension, profile.moment, curvature, *track))
+        points = np.column_stack((profile.x, profile.y, profile.z))
+        yield Strand(WIRE, k, k, points, values, 0.5 * (profile.tension[1:] + profile.tension[:-1]))
+    droppers = result.droppers
+    for i, wire in enumerate(droppers.lower_wire):
+        ends = droppers.position_bottom[i], droppers.position_top[i]
+        yield _bar(DROPPER, index[wire], i, *ends, float(droppers.force_bottom[i]), float(droppers.x[i]))
+    arms = result.arms
+    for i, wire in enumerate(arms.wire):
+        ends = arms.hinge[i], arms.tip[i]
+        yield _bar(ARM, index[wire], i, *ends, float(arms.axial[i]), float(arms.chainage[i]))
+    beams = result.cantilevers
+    for i, (root, tip) in enumerate(zip(beams.root, beams.tip, strict=True)):
+        yield _bar(CANTILEVER, -1, i, root, tip, np.nan, np.nan)
+
+
+def _bar(
+    kind: int, wire: int, number: int, start: FloatArray, end: FloatArray, force: float, chainage: float
+) -> Strand:
+    values = np.full((2, len(_POINT)), np.nan)
+    values[:, _POINT.index("tension_N")] = force
+    values[:, _POINT.index("chainage_m")] = chainage
+    return Strand(kind, wire, number, np.stack((start, end)), values, np.array([force]))
