@@ -6,13 +6,20 @@ bends it over the length l = sqrt(EJ/T), with the moment F l / 2 exp(-|x| / l).
 
 from __future__ import annotations
 
+import shutil
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from importlib.util import find_spec
+from pathlib import Path
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from catenaria import workflow
+from catenaria.line import load_line
+from catenaria.report.checks import load_rules
+from catenaria.report.html.page import Contents, page
 from catenaria.results import (
     Arms,
     Cantilevers,
@@ -30,6 +37,12 @@ from catenaria.results import (
 )
 
 FloatArray = NDArray[np.float64]
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+BROWSER = any(shutil.which(name) for name in ("chromium", "google-chrome"))
+NEEDED = {"test_html_printed.py": BROWSER, "test_html_browser.py": BROWSER and find_spec("playwright")}
+
+collect_ignore = [file for file, installed in NEEDED.items() if not installed]  # extra: browser
 
 SPAN = 65.0
 PLACES = np.array([4.0, 13.5, 23.0, 32.5, 42.0, 51.5, 61.0])
@@ -367,3 +380,35 @@ def make_result() -> Callable[[int], FormResult]:
 @pytest.fixture(scope="session")
 def result() -> FormResult:
     return build(3)
+
+
+@pytest.fixture(scope="session")
+def solved() -> Callable[[str], FormResult]:
+    """Return the form of an example by the name of its file, found once."""
+    found: dict[str, FormResult] = {}
+
+    def find(name: str, method: str = "direct") -> FormResult:
+        key = f"{name} {method}"
+        if key not in found:
+            found[key] = workflow.solve(load_line(EXAMPLES / f"{name}.yaml"), method, rebuild="none")
+        return found[key]
+
+    return find
+
+
+@pytest.fixture(scope="session")
+def paper(solved: Callable[[str], FormResult]) -> FormResult:
+    """Return the form of the paper's line."""
+    return solved("yang2017_three_span")
+
+
+@pytest.fixture(scope="session")
+def curve(solved: Callable[[str], FormResult]) -> FormResult:
+    """Return the form of a line in space."""
+    return solved("curve_800m")
+
+
+@pytest.fixture(scope="session")
+def curve_page(curve: FormResult) -> str:
+    """Return the report of a line in space."""
+    return page(Contents(curve, load_rules(), speed=200 / 3.6))

@@ -17,10 +17,10 @@ from catenaria.workflow import Rebuild
 
 METHODS: Final = tuple(workflow.METHODS)
 
-Source = str | os.PathLike[str] | Mapping[str, Any]
+LineSource = str | os.PathLike[str] | Mapping[str, Any]
 
 
-def load(source: Source) -> Line:
+def load(source: LineSource) -> Line:
     """Read and check a line.
 
     Parameters
@@ -52,7 +52,7 @@ def load(source: Source) -> Line:
 
 
 def solve(
-    line: Line | Source,
+    line: Line | LineSource,
     method: str = "direct",
     *,
     start: Result | None = None,

@@ -294,7 +294,7 @@ class Result:
         NotConvergedError, InfeasibleError
             If the line does not rest where it was found, or no sample comes to rest.
         """
-        options = Options(samples, model, workers, band)
+        options = Options(samples=samples, model=model, workers=workers, tolerance=band)
         return workflow.tolerances(self.form, errors, options, seed)
 
     def __eq__(self, other: object) -> bool:

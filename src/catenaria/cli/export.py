@@ -72,7 +72,8 @@ def export(
         options = workflow.ExportOptions(positive_length("--step", step), modes)
         found = results.load_result(result)
         everything = Format.ALL in formats
-        named = tuple(name for name in workflow.FORMATS if name in formats)
+        wanted = {str(name) for name in formats}
+        named = tuple(name for name in workflow.FORMATS if name in wanted)
         chosen = workflow.formats_of(found) if everything else named
         place = _beside(result, formats) if out is None else out
         try:

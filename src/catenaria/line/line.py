@@ -104,7 +104,7 @@ class Line(LineModel):
     def _near(cls, chainage: float) -> float:
         """Digits of positions are lost far away; bounds of the field do not reach quantities with units."""
         if abs(chainage) > _FARTHEST:
-            raise PydanticCustomError("value", "{allowed}", {"allowed": f"within {_FARTHEST:g} m"})
+            raise PydanticCustomError("value", "{allowed}", {"allowed": f"within {_FARTHEST:.0f} m"})
         return chainage
 
     @field_validator("supports", mode="after")

@@ -1,0 +1,158 @@
+"""Verdicts: what passes, what fails when something is wrong, and what is not judged."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from catenaria.report.checks import Check, judge, load_rules, write_checks
+from catenaria.results import FormResult
+
+RULES = load_rules()
+AT_200 = 200 / 3.6
+
+
+def checked(result: FormResult, name: str, speed: float | None = AT_200) -> Check:
+    return next(check for check in judge(result, RULES, speed) if check.name == name)
+
+
+def test_the_papers_line(paper: FormResult) -> None:
+    verdicts = {check.name: check.verdict for check in judge(paper, RULES, AT_200)}
+    assert verdicts["gradient of the contact wire"] == "passes"
+    assert verdicts["change of gradient"] == "not judged"  # two supports hold the contact wire
+    assert verdicts["radial pull of steady arms"] == "not judged"
+    assert verdicts["speed by wave speed"] == "passes"
+    assert verdicts["non-uniformity of elasticity"] == "not judged"
+    assert "fails" not in verdicts.values()
+
+
+def test_wave_speed_by_hand(paper: FormResult) -> None:
+    # 15 kN and 7,710 kg/m^3 x 120 mm^2 = 0.9252 kg/m: 127.33 m/s, of which 320 km/h are 69.8 %
+    check = checked(paper, "speed by wave speed", 320 / 3.6)
+    assert check.value == pytest.approx(100 * (320 / 3.6) / 127.33, abs=0.01)
+    assert check.verdict == "passes"
+    assert checked(paper, "speed by wave speed", 325 / 3.6).verdict == "fails"
+
+
+def test_wear_makes_waves_faster(paper: FormResult) -> None:
+    worn = replace(
+        paper, inputs=paper.inputs | {"contact_wire": paper.inputs["contact_wire"] | {"wear": 0.19}}
+    )
+    new, old = (checked(one, "speed by wave speed").value for one in (worn, paper))
+    assert new is not None
+    assert old is not None
+    assert new == pytest.approx(0.9 * old)
+
+
+def test_without_speed_limits_by_speed_are_not_judged(paper: FormResult) -> None:
+    for name in ("gradient of the contact wire", "shortest dropper", "speed by wave speed"):
+        check = checked(paper, name, None)
+        assert check.verdict == "not judged"
+        assert "--speed" in check.why
+
+
+def test_the_speed_of_the_line_file_counts(paper: FormResult) -> None:
+    fast = replace(paper, inputs=paper.inputs | {"speed": 100.0})
+    assert checked(fast, "speed by wave speed", None).verdict == "fails"
+    assert checked(fast, "speed by wave speed", 50.0).verdict == "passes"  # what is asked for goes first
+
+
+def test_gradient_and_change_by_hand(curve: FormResult) -> None:
+    supports = curve.supports
+    height = supports.height.copy()
+    held = [i for i, wire in enumerate(supports.wire) if wire == "contact wire"]
+    third = held[2]
+    height[third] += 0.11  # on bays of 50 m: 2.2 per mille up, then down
+    raised = replace(curve, supports=replace(supports, height=height))
+    gradient, change = (
+        checked(raised, name) for name in ("gradient of the contact wire", "change of gradient")
+    )
+    assert gradient.value == pytest.approx(2.2)
+    assert (gradient.limit, gradient.verdict, gradient.place) == (pytest.approx(2.0), "fails", "S2 to S3")
+    assert change.value == pytest.approx(4.4)
+    assert (change.verdict, change.place) == ("fails", "S3")
+    assert checked(raised, "gradient of the contact wire", 160 / 3.6).verdict == "passes"
+
+
+def test_a_limit_of_zero_can_be_kept(curve: FormResult) -> None:
+    assert checked(curve, "gradient of the contact wire", 300 / 3.6).verdict == "passes"
+
+
+def test_a_weak_arm_fails(curve: FormResult) -> None:
+    radial = curve.arms.radial.copy()
+    radial[3] = 79.0
+    weak = replace(curve, arms=replace(curve.arms, radial=radial))
+    check = checked(weak, "radial pull of steady arms")
+    assert (check.value, check.limit, check.verdict) == (79.0, 80.0, "fails")
+    assert check.place == curve.arms.support[3]
+    assert checked(curve, "radial pull of steady arms").verdict == "passes"
+
+
+def test_a_higher_pull_of_the_line_file_counts(curve: FormResult) -> None:
+    strict = replace(curve, arms=replace(curve.arms, minimum_radial=np.full(curve.arms.radial.size, 1e4)))
+    check = checked(strict, "radial pull of steady arms")
+    assert (check.limit, check.verdict) == (1e4, "fails")
+    assert "line file" in check.why
+
+
+@pytest.mark.parametrize(
+    ("name", "field", "value"),
+    [
+        ("shortest dropper", "length", 0.4999),
+        ("slack droppers", "force_bottom", 0.0),
+        ("heights at droppers", "height_error", -0.0051),
+    ],
+)
+def test_one_bad_dropper_fails(curve: FormResult, name: str, field: str, value: float) -> None:
+    values = getattr(curve.droppers, field).copy()
+    values[10] = value
+    bad = replace(curve, droppers=replace(curve.droppers, **{field: values}))
+    assert checked(curve, name).verdict == "passes"
+    check = checked(bad, name)
+    assert check.verdict == "fails"
+    assert check.place == f"span {curve.droppers.span[10]}, dropper {curve.droppers.number[10]}"
+
+
+def test_spacing_is_that_within_a_span(paper: FormResult) -> None:
+    check = checked(paper, "dropper spacing")
+    assert check.value == pytest.approx(9.5)  # 8 m across supports, 9.5 m within spans
+    x = paper.droppers.x.copy()
+    x[3] += 2.0
+    wide = replace(paper, droppers=replace(paper.droppers, x=x))
+    assert (checked(wide, "dropper spacing").value, checked(wide, "dropper spacing").verdict) == (
+        pytest.approx(11.5),
+        "fails",
+    )
+
+
+def test_lateral_position_between_supports(curve: FormResult) -> None:
+    contact = curve.wires[0]
+    lateral = contact.profile.lateral.copy()
+    i = int(np.searchsorted(contact.profile.chainage, 175.0))
+    lateral[i] = -0.41
+    blown = replace(contact, profile=replace(contact.profile, lateral=lateral))
+    check = checked(replace(curve, wires=(blown, *curve.wires[1:])), "lateral position of the contact wire")
+    assert (check.value, check.verdict) == (pytest.approx(410.0), "fails")
+    assert float(check.place.removesuffix(" m")) == pytest.approx(175.0, abs=1.0)
+    assert checked(curve, "lateral position of the contact wire").verdict == "passes"
+
+
+def test_lifted_ends_are_not_in_use(solved: Callable[[str], FormResult]) -> None:
+    check = checked(solved("overlap"), "gradient of the contact wire")
+    assert check.verdict == "passes"
+    assert "from S3 to S19" in check.why
+
+
+def test_rows_are_written_whole(paper: FormResult, tmp_path: Path) -> None:
+    checks = judge(paper, RULES, AT_200)
+    file = write_checks(checks, tmp_path / "new" / "checks.csv")
+    rows = list(csv.DictReader(file.open(encoding="utf-8")))
+    assert len(rows) == len(checks)
+    assert rows[0]["rule"] == "EN 50119:2001, Table 8"
+    assert {row["verdict"] for row in rows} == {"passes", "not judged"}
+    assert [path.name for path in file.parent.iterdir()] == ["checks.csv"]

@@ -1,0 +1,130 @@
+"""Figures of the page: Plotly accepts them, they show the numbers of the result, and keep every peak."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import plotly.graph_objects as go
+import pytest
+
+from catenaria.line import Line
+from catenaria.report.html import figures
+from catenaria.report.html.drawing import Drawing
+from catenaria.report.html.sketch import sketch
+from catenaria.results import FormResult
+
+COLOURS = ("contact", "messenger", "dropper", "ink", "quiet", "line", "grid", "card", "band", "band-edge")
+
+
+def all_figures(result: FormResult) -> list[Drawing]:
+    return [
+        *figures.profile_figures(result),
+        *figures.height_figures(result, 5e-3),
+        *figures.plan_figures(result),
+        *figures.tension_figures(result),
+    ]
+
+
+def painted(value: Any) -> Any:
+    """Put a colour in the place of names of the style sheet."""
+    if isinstance(value, dict):
+        return {key: painted(item) for key, item in value.items()}
+    if isinstance(value, list):
+        return [painted(item) for item in value]
+    return "#123456" if isinstance(value, str) and value.startswith("var(") else value
+
+
+@pytest.mark.parametrize("name", ["paper", "curve", "in_space"])
+def test_plotly_accepts_every_figure(name: str, request: pytest.FixtureRequest) -> None:
+    for one in all_figures(request.getfixturevalue(name)):
+        figure = go.Figure(data=painted(one.data), layout=painted(one.layout))
+        assert len(figure.data) == len(one.data)
+
+
+def test_plotly_refuses_a_wrong_figure(paper: FormResult) -> None:
+    one = all_figures(paper)[0]
+    with pytest.raises(ValueError, match="colour"):
+        go.Figure(data=painted([one.data[0] | {"colour": "red"}]))
+
+
+def test_long_lines_are_drawn_in_parts(curve: FormResult, paper: FormResult) -> None:
+    parts = figures.profile_figures(curve)
+    assert len(parts) == 3  # of 904 m, at most 450 m each
+    ends = [part.layout["xaxis"]["range"] for part in parts]
+    assert [end for _, end in ends[:-1]] == [start for start, _ in ends[1:]]
+    assert len({tuple(part.layout["yaxis"]["range"]) for part in parts}) == 1
+    assert len(figures.profile_figures(paper)) == 1
+
+
+def test_a_very_long_line_has_few_figures(make_result: Callable[[int], FormResult]) -> None:
+    assert len(figures.profile_figures(make_result(120))) == 12
+
+
+def test_every_dropper_says_its_lengths(paper: FormResult) -> None:
+    texts = [text for trace in figures.profile_figures(paper)[0].data for text in trace.get("text", [])]
+    droppers = paper.droppers
+    for i in range(droppers.x.size):
+        assert any(
+            f"cut to {droppers.cut_length[i]:.4f} m" in text
+            and f"{droppers.span[i]}.{droppers.number[i]}" in text
+            for text in texts
+        )
+
+
+def test_the_tension_keeps_its_extremes(curve: FormResult) -> None:
+    for one, wire in zip(figures.tension_figures(curve), curve.wires, strict=True):
+        drawn = np.array(one.data[1]["y"])
+        assert drawn.max() == pytest.approx(wire.profile.tension.max(), abs=0.05)
+        assert drawn.min() == pytest.approx(wire.profile.tension.min(), abs=0.05)
+
+
+def test_hovering_says_chainage_height_and_force(paper: FormResult) -> None:
+    trace = figures.profile_figures(paper)[0].data[0]
+    for word in ("chainage", "height", "tension"):
+        assert word in trace["hovertemplate"]
+    i = len(trace["x"]) // 2
+    profile = paper.wires[0].profile
+    assert trace["customdata"][i][0] == pytest.approx(
+        np.interp(trace["x"][i], profile.x, profile.z), abs=1e-4
+    )
+
+
+def test_heights_are_counted_from_wanted_ones(paper: FormResult) -> None:
+    one = figures.height_figures(paper, 5e-3)[0]
+    wire = next(trace for trace in one.data if trace["name"] == "contact wire")
+    assert min(wire["y"]) == pytest.approx(-1e3 * paper.wires[0].sag, abs=0.02)
+    assert {trace["name"] for trace in one.data} >= {"tolerance at droppers: ±5 mm", "at droppers"}
+    without = figures.height_figures(paper, None)[0]
+    assert not any("tolerance" in trace["name"] for trace in without.data)
+
+
+def test_a_line_in_a_plane_has_no_plan(paper: FormResult, curve: FormResult) -> None:
+    assert figures.plan_figures(paper) == []
+    names = {trace["name"] for part in figures.plan_figures(curve) for trace in part.data}
+    assert {"contact wire", "messenger wire", "steady arm", "track"} <= names
+
+
+def test_slack_droppers_are_marked(in_space: FormResult, paper: FormResult) -> None:
+    def named(result: FormResult) -> set[str]:
+        return {trace["name"] for part in figures.profile_figures(result) for trace in part.data}
+
+    assert "slack dropper" in named(in_space)
+    assert "slack dropper" not in named(paper)
+
+
+def test_sketch_of_every_span(solved: Callable[[str], FormResult]) -> None:
+    for name, auxiliary in (("compound", True), ("bridge", False)):
+        result = solved(name)
+        line = Line.model_validate(result.inputs)
+        drawn = sketch(result, line)
+        assert sum(len(row.bays) for row in drawn.rows) == len(line.spans)
+        assert drawn.auxiliary is auxiliary
+        count = sum(len(bay.droppers) + len(bay.upper_droppers) for row in drawn.rows for bay in row.bays)
+        assert count == result.droppers.x.size
+        assert all(0.0 <= mast.x <= drawn.width for row in drawn.rows for mast in row.masts)
+        assert all(
+            row.masts[0].name == before.masts[-1].name
+            for before, row in zip(drawn.rows, drawn.rows[1:], strict=False)
+        )
