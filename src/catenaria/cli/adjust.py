@@ -46,6 +46,7 @@ def adjust(
 
     Example:
 
+    \b
       catenaria solve examples/yang2017_three_span.yaml --out results/three_spans
       catenaria adjust results/three_spans --measured examples/measured_heights.csv --noise 0.5mm
       catenaria adjust results/three_spans --measured examples/measured_heights.csv --at-most 2
@@ -56,7 +57,7 @@ def adjust(
     Exit codes: 0 done, also if there is nothing to do; 1 no lengths explain the measurement; 2 bad input, or
     the tolerance cannot be reached like that: the message says what would do; 130 interrupted. Nothing is
     written unless it is 0.
-    """
+    """  # noqa: D301 (\b keeps the lines of the example apart)
     console = Console(markup=False, highlight=False, emoji=False)
     with failures_reported():
         from catenaria import results, workflow

@@ -35,8 +35,9 @@ def clamp_columns(result: FormResult) -> Columns:
     for mark in reversed(marks):
         if mark.support:
             first[mark.wire] = mark.s
+    names = [form.name for form in result.wires]
     return {
-        "wire": [result.wires[k].name for k in wire.tolist()],
+        "wire": [names[mark.wire] for mark in marks],
         "mark": [mark.what for mark in marks],
         "chainage_m": [mark.chainage for mark in marks],
         "from_start_m": s,

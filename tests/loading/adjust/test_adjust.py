@@ -11,8 +11,9 @@ import pytest
 from numpy.typing import NDArray
 
 from catenaria.discretise.spatial.loaded import with_dropper_lengths
-from catenaria.errors import InconsistentInputError, InfeasibleError, UnsupportedError
+from catenaria.errors import InconsistentInputError, InfeasibleError, NotConvergedError, UnsupportedError
 from catenaria.line.measured import MeasuredHeights
+from catenaria.loading import adjust as adjusting
 from catenaria.loading.adjust import adjust
 from catenaria.loading.adjustment_limits import AdjustmentLimits
 from catenaria.loading.built_line import BuiltLine
@@ -98,6 +99,14 @@ def _put(n: int, chosen: tuple[int, ...], values: NDArray[np.float64]) -> NDArra
     change = np.zeros(n)
     change[list(chosen)] = values
     return change
+
+
+def test_heights_that_are_not_as_predicted_are_no_result(
+    three_spans: BuiltLine, measure: Measure, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(adjusting, "_AGREES", 0.0)
+    with pytest.raises(NotConvergedError, match="after 12 linearisations"):
+        adjust(three_spans, measure(three_spans, ERRORS), AdjustmentLimits())
 
 
 def test_too_few_droppers_are_refused_with_what_would_do(three_spans: BuiltLine, measure: Measure) -> None:

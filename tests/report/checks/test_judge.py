@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import io
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -151,7 +152,7 @@ def test_lifted_ends_are_not_in_use(solved: Callable[[str], FormResult]) -> None
 def test_rows_are_written_whole(paper: FormResult, tmp_path: Path) -> None:
     checks = judge(paper, RULES, AT_200)
     file = write_checks(checks, tmp_path / "new" / "checks.csv")
-    rows = list(csv.DictReader(file.open(encoding="utf-8")))
+    rows = list(csv.DictReader(io.StringIO(file.read_text(encoding="utf-8"))))
     assert len(rows) == len(checks)
     assert rows[0]["rule"] == "EN 50119:2001, Table 8"
     assert {row["verdict"] for row in rows} == {"passes", "not judged"}
