@@ -40,7 +40,7 @@ def painted(value: Any) -> Any:
 def test_plotly_accepts_every_figure(name: str, request: pytest.FixtureRequest) -> None:
     for one in all_figures(request.getfixturevalue(name)):
         figure = go.Figure(data=painted(one.data), layout=painted(one.layout))
-        assert len(figure.data) == len(one.data)
+        assert len(figure.to_dict()["data"]) == len(one.data)
 
 
 def test_plotly_refuses_a_wrong_figure(paper: FormResult) -> None:

@@ -40,6 +40,13 @@ def _arm_lines(result: FormResult) -> list[str]:
             "Caution: steady arms that do not bear what they are for, or less radial force than is wanted "
             f"(tension positive): {_some(list(named))}."
         )
+    pushed = np.flatnonzero(arms.enough & (arms.radial < 0.0))
+    if pushed.size:
+        named = (f"{arms.support[k]} {arms.radial[k]:.1f} N ({arms.registration[k]})" for k in pushed)
+        lines.append(
+            "Caution: steady arms in compression, although hinged arms are built for tension; `side` says where "
+            f"the hinge is: {_some(list(named))}."
+        )
     return lines
 
 

@@ -25,6 +25,8 @@ if TYPE_CHECKING:
 _ROOM: Final = 0.2  # m from a wanted height up to the line between the messenger's supports
 _FARTHEST: Final = 0.5  # m from the line between the contact wire's supports to a wanted height
 _LIFTED: Final = 1.5  # m between the heights of the contact wire at neighbouring supports that hold it
+_TALLEST: Final = 20.0  # m from the rails to a contact wire
+_ABOVE: Final = 5.0  # m from the contact wire up to where the messenger wire is held
 _ROUNDING: Final = 1e-9  # m
 _STRAIN: Final = (1e-5, 0.02)  # T/EA; about 1e-3 in wires that are built
 
@@ -97,6 +99,7 @@ def _tensions(line: Line) -> Iterator[tuple[Path, str, float]]:
 def implausible_heights(line: Line) -> Iterator[Problem]:
     """Find wanted heights far from where the contact wire is held, or near the messenger's supports."""
     held, wanted = held_heights(line), wanted_heights(line)
+    yield from _far_up(line)
     yield from _lifted(line, held)
     low = dict(_low_supports(line, wanted))
     for i, least in low.items():
@@ -146,6 +149,19 @@ def implausible_sags(line: Line) -> Iterator[Problem]:
                     field, depth = "pre_sag_per_mille", f"{most / span.length * 1e3:.3g} per mille"
                 allowed = f"a pre-sag of at most {depth}: a deeper one needs droppers that push"
                 yield Problem(("spans", i, field), span.sag, allowed)
+
+
+def _far_up(line: Line) -> Iterator[Problem]:
+    """Find contact wires far from the rails, and messenger wires far above them: millimetres as metres."""
+    for i, (support, level) in enumerate(zip(line.supports, line.contact_heights, strict=False)):
+        if support.contact_wire is not None and abs(support.contact_wire.height) > _TALLEST:
+            path: Path = ("supports", i, "contact_wire", "height")
+            yield Problem(path, support.contact_wire.height, f"within {_TALLEST:g} m of the rails, as 5.3 m")
+        elif support.messenger_height - level > _ABOVE + _ROUNDING:
+            field = "height" if support.messenger_wire.encumbrance is None else "encumbrance"
+            allowed = f"at most {_ABOVE:g} m above the contact wire, which is at {level:g} m there"
+            found = getattr(support.messenger_wire, field)
+            yield Problem(("supports", i, "messenger_wire", field), found, allowed)
 
 
 def _lifted(line: Line, held: Sequence[tuple[float, float]]) -> Iterator[Problem]:

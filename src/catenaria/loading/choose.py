@@ -18,6 +18,7 @@ FloatArray = NDArray[np.float64]
 SECONDS: Final = 30.0  # for each search, after which the best that was found is taken
 
 _MM = 1e3  # lengths are millimetres within: tolerances of the solver are absolute
+_DEVIATIONS = 0.5  # of a dropper: how much all deviations together may count
 _GAP = 1e-4  # by which the value that is minimised may be off
 _NEGLIGIBLE = 2e-4, 0.02  # slopes of heights, and of forces [N/m]; what they do is found by the next pass
 _OPTIMAL, _STOPPED, _INFEASIBLE = 0, 1, 2  # of scipy.optimize.milp
@@ -46,7 +47,7 @@ class Choice:
     @property
     def fewest(self) -> int:
         """Number of droppers of which it is proved that fewer do not do."""
-        return max(0, math.floor(self.least - 1e-6 + _GAP * self.count))
+        return max(0, math.ceil(self.least - _DEVIATIONS - 1e-6))
 
 
 @dataclass(frozen=True)
@@ -87,11 +88,11 @@ class Adjustable:
         Notes
         -----
         Of all choices of so few the one with the least sum of deviations is taken, for the number of droppers
-        plus :math:`\sum |d| / (m \tau) < 1` is minimised.
+        plus :math:`\tfrac12 \sum |d| / (m \tau) \le \tfrac12` is minimised.
         """
         m = self.deviation.size
         answer = self._solve(
-            1.0, np.full(m, 1.0 / (m * _MM * tolerance)), eye_array(m), tolerance, self.count
+            1.0, np.full(m, _DEVIATIONS / (m * _MM * tolerance)), eye_array(m), tolerance, self.count
         )
         if answer.status == _INFEASIBLE:
             return None

@@ -22,6 +22,7 @@ R = TypeVar("R")
 
 CONNECT = 5.0  # s within which a scheduler and a worker must answer
 PATIENCE = 30.0  # s without any worker after which nothing more is expected
+_STARTS = 3  # of worker processes on this computer
 _TICK = 1.0  # s between two looks at the cluster while nothing comes back
 
 _EMBEDDED: dict[str, object] = {
@@ -124,8 +125,19 @@ def local_cluster(function: Callable[[T], R], workers: int | None) -> Generator[
         raise InconsistentInputError(f"{workers} workers: at least one is needed")
     with ExitStack() as stack:
         stack.enter_context(dask.config.set(_EMBEDDED))
+        cluster = _started(distributed, workers)
+        stack.enter_context(cluster)
+        client = stack.enter_context(distributed.Client(cluster, set_as_default=False))
+        yield Cluster(client, function)
+
+
+def _started(distributed: Any, workers: int | None) -> Any:
+    """Return a running cluster of this computer; on a busy one, worker processes may need a second start."""
+    left = _STARTS
+    while True:
+        left -= 1
         try:
-            cluster = distributed.LocalCluster(
+            return distributed.LocalCluster(
                 n_workers=workers,
                 threads_per_worker=1,
                 host="127.0.0.1",
@@ -134,11 +146,9 @@ def local_cluster(function: Callable[[T], R], workers: int | None) -> Generator[
                 silence_logs=logging.CRITICAL,
             )
         except (OSError, RuntimeError) as error:
-            reason = f"worker processes did not start ({error.__cause__ or error})"
-            raise NotConvergedError(reason, "the same command again, or with fewer workers") from error
-        stack.enter_context(cluster)
-        client = stack.enter_context(distributed.Client(cluster, set_as_default=False))
-        yield Cluster(client, function)
+            if not left:
+                reason = f"worker processes did not start ({error.__cause__ or error})"
+                raise NotConvergedError(reason, "the same command again, or with fewer workers") from error
 
 
 @contextmanager

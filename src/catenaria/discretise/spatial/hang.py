@@ -34,6 +34,7 @@ IntArray = NDArray[np.int64]
 
 _PASSES = 4  # of a fixed point that gains two digits or more in each
 _STEEPEST = 1.0  # slope beyond which nothing of this is true
+_FLATTER = ("more tension, shorter spans or supports of less different height", "a longer reach")
 
 
 def hang(net: Network, layout: Layout, *, loaded: bool) -> Strings:
@@ -144,9 +145,9 @@ def _check(strings: Strings) -> None:
     if steep.size:
         wire = layout.wires[net.bay_wire[steep[0]]]
         raise InfeasibleError(
-            f"the {wire.name} is so slack under {wire.tension.force:.4g} N that it is steeper than 45 "
-            f"degrees near x = {strings.at[net.bay[steep[0]], 0]:.6g} m; more tension or shorter spans would "
-            "help"
+            f"the {wire.name} would be steeper than 45 degrees near "
+            f"x = {strings.at[net.bay[steep[0]], 0]:.6g} m under its {wire.tension.force / 1e3:.4g} kN; "
+            f"{_FLATTER[wire.role == 'mid-point anchor']} would help"
         )
     low = np.flatnonzero(~(strings.dropper[:, 2] > 0.0)) if strings.loaded else np.zeros(0, dtype=np.int64)
     if low.size:

@@ -36,9 +36,9 @@ def horizontal_tensions(strings: Strings) -> FloatArray:
     if slack.size:
         wire = layout.wires[net.bay_wire[slack[0]]]
         raise InfeasibleError(
-            f"the {wire.name} is slack: nothing is left of its {wire.tension.force:.4g} N near "
-            f"x = {strings.at[net.bay[slack[0]], 0]:.6g} m; more tension, shorter spans, lighter droppers or "
-            "less friction would help"
+            f"the {wire.name} is slack: nothing is left of its {wire.tension.force / 1e3:.4g} kN near "
+            f"x = {strings.at[net.bay[slack[0]], 0]:.6g} m; more tension, shorter spans, lighter droppers, "
+            "less friction or less tension of what is tied to it would help"
         )
     return H
 

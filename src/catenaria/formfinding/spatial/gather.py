@@ -22,6 +22,11 @@ _COMPRESSION: Final = (
     "The wanted heights are below where the tension lets the lower wire hang: a smaller pre-sag, less "
     "tension or other dropper positions would help"
 )
+_NOT_SLACK: Final = (
+    "They may hang slack, but the dynamic method lets no dropper do so: the method direct does, and a smaller "
+    "pre-sag, less tension or other dropper positions would help"
+)
+_MOST_NAMES: Final = 8
 _UPSIDE_DOWN: Final = "The upper wire sags below the lower one: more tension or higher supports would help"
 _SHORT: Final = "The clamps bridge more than there is between the wires: check the clamp heights"
 
@@ -84,12 +89,20 @@ def _refuse_impossible(model: SpatialModel, z: FloatArray, found: Found) -> None
     droppers, names = found.droppers, dropper_names(model)
     rise = droppers.position_top[:, 2] - droppers.position_bottom[:, 2]
     weakest = np.minimum(droppers.force_top, droppers.force_bottom)
-    pushes = (weakest < 0.0) & (not model.layout.droppers.may_be_slack or z[model.density] < -_NOTHING)
+    may_be_slack = model.layout.droppers.may_be_slack
+    pushes = (weakest < 0.0) & (not may_be_slack or z[model.density] < -_NOTHING)
+    advice_on_pushing = _NOT_SLACK if may_be_slack else _COMPRESSION  # direct leaves none of these that push
     for size, wrong, unit, what, advice in (
         (rise, rise <= 0.0, "m", "would stand upside down", _UPSIDE_DOWN),
-        (weakest, pushes, "N", "would be in compression", _COMPRESSION),
+        (weakest, pushes, "N", "would be in compression", advice_on_pushing),
         (droppers.cut_length, droppers.cut_length <= 0.0, "m", "would be cut to nothing", _SHORT),
     ):
         if np.any(wrong):
-            named = "; ".join(f"{names[i]} ({size[i]:.4g} {unit})" for i in np.flatnonzero(wrong))
-            raise InfeasibleError(f"droppers {what}: {named}. {advice}", found)
+            named = [f"{names[i]} ({size[i]:.4g} {unit})" for i in np.flatnonzero(wrong)]
+            raise InfeasibleError(f"droppers {what}: {_some(named)}. {advice}", found)
+
+
+def _some(names: list[str]) -> str:
+    """Join names, not too many."""
+    more = len(names) - _MOST_NAMES
+    return "; ".join(names[:_MOST_NAMES]) + (f"; and {more} more" if more > 0 else "")

@@ -1,0 +1,62 @@
+"""Every example line, solved once."""
+
+from __future__ import annotations
+
+from functools import cache
+from importlib.util import find_spec
+from pathlib import Path
+
+import pytest
+
+from catenaria.results import FormResult
+from catenaria.workflow import solve
+
+PEERS = ("exudyn",)  # extra: bench
+
+collect_ignore = [f"test_line_in_{name}.py" for name in PEERS if find_spec(name) is None]
+
+FOLDER = Path(__file__).parents[2] / "examples"
+LINES = (
+    "yang2017_three_span",
+    "simple_55m",
+    "simple_60m",
+    "stitched_re250",
+    "compound",
+    "curve_800m",
+    "overlap",
+    "bridge",
+    "two_contact_wires_3kv",
+)
+
+
+@cache
+def solved(name: str) -> FormResult:
+    """Return what the direct method finds for an example."""
+    return solve(FOLDER / f"{name}.yaml", rebuild="none")
+
+
+@pytest.fixture(params=LINES)
+def every(request: pytest.FixtureRequest) -> FormResult:
+    return solved(request.param)
+
+
+@pytest.fixture
+def plane() -> FormResult:
+    return solved("yang2017_three_span")
+
+
+@pytest.fixture
+def space() -> FormResult:
+    """Return a line with arms, cantilevers and clamps."""
+    return solved("simple_60m")
+
+
+@pytest.fixture
+def stitched() -> FormResult:
+    return solved("stitched_re250")
+
+
+@pytest.fixture(scope="session")
+def strings() -> FormResult:
+    """Return a result of a method without nodes."""
+    return solve(FOLDER / "yang2017_three_span.yaml", method="force density", rebuild="none")

@@ -1,0 +1,102 @@
+"""The workbook, read back with another library."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import openpyxl
+import pytest
+
+from catenaria.errors import UnsupportedError
+from catenaria.export import libraries, xlsx
+from catenaria.results import FormResult
+
+HEADINGS = 4  # the row that has them
+
+
+def written(result: FormResult, file: Path, step: float = 1e-3) -> Any:
+    xlsx.write_xlsx(result, file, step)
+    return openpyxl.load_workbook(file)
+
+
+def table(sheet: Any) -> dict[str, list[Any]]:
+    """Return the columns of a sheet by their headings, without the row of sums."""
+    rows = list(sheet.iter_rows(min_row=HEADINGS, values_only=True))
+    body = [row for row in rows[1:] if row[0] != "sum"]
+    return {str(name): [row[j] for row in body] for j, name in enumerate(rows[0])}
+
+
+def test_every_dropper_is_on_the_sheet_of_its_span(every: FormResult, tmp_path: Path) -> None:
+    book = written(every, tmp_path / "schedule.xlsx")
+    droppers = every.droppers
+    found: list[float] = []
+    for number in np.unique(droppers.span):
+        columns = table(book[f"Span {number}"])
+        assert columns["span"] == [number] * len(columns["span"])
+        found += columns["cut length [m]"]
+        forces = droppers.force_bottom[droppers.span == number]
+        np.testing.assert_allclose(columns["force bottom [N]"], forces, rtol=1e-12)
+    np.testing.assert_allclose(found, droppers.cut_length, rtol=1e-12)
+    names = set(book.sheetnames)
+    assert {"Summary", "Wires", "Supports", "Clamps"} <= names
+    assert ("Arms" in names) == bool(every.arms.support)
+
+
+def test_rounded_lengths_and_their_sum(space: FormResult, tmp_path: Path) -> None:
+    sheet = written(space, tmp_path / "schedule.xlsx", 5e-3)["Span 2"]
+    columns = table(sheet)
+    rounded = np.array(columns["cut length rounded [m]"])
+    np.testing.assert_allclose(rounded / 5e-3, np.round(rounded / 5e-3), rtol=0.0, atol=1e-9)
+    at = list(columns).index("cut length rounded [m]") + 1
+    last = HEADINGS + rounded.size + 1
+    assert sheet.cell(last, 1).value == "sum"
+    assert sheet.cell(last, at).value == pytest.approx(rounded.sum())
+    assert sheet.cell(last - 1, at).number_format == "0.000"
+
+
+def test_it_prints_on_a4(space: FormResult, tmp_path: Path) -> None:
+    for sheet in written(space, tmp_path / "schedule.xlsx"):
+        assert sheet.page_setup.paperSize == 9
+        assert sheet.page_setup.orientation == "landscape"
+        assert (sheet.page_setup.fitToWidth, sheet.page_setup.fitToHeight) == (1, 0)
+        assert "&P" in (sheet.oddFooter.right.text or "") or "Page" in (sheet.oddFooter.right.text or "")
+        if sheet.title != "Summary":
+            assert sheet.print_title_rows == f"${HEADINGS}:${HEADINGS}"
+            assert sheet.freeze_panes == f"C{HEADINGS + 1}"
+
+
+def test_names_are_text_and_never_formulas(plane: FormResult, tmp_path: Path) -> None:
+    evil = '=HYPERLINK("http://example.org")'
+    named = replace(plane, name=evil, droppers=replace(plane.droppers, upper_wire=(evil,) * plane.droppers.x.size))
+    book = written(named, tmp_path / "schedule.xlsx")
+    column = list(table(book["Span 1"])).index("upper wire") + 1
+    cell = book["Span 1"].cell(HEADINGS + 1, column)
+    assert (cell.value, cell.data_type) == (evil, "s")
+
+
+def test_equal_results_give_equal_files(plane: FormResult, tmp_path: Path) -> None:
+    for name in ("one", "other"):
+        xlsx.write_xlsx(plane, tmp_path / name, 1e-3)
+    assert (tmp_path / "one").read_bytes() == (tmp_path / "other").read_bytes()
+
+
+def test_what_was_not_done_is_not_said_to_have_passed(plane: FormResult, tmp_path: Path) -> None:
+    sheet = written(plane, tmp_path / "schedule.xlsx")["Summary"]
+    facts = {row[0]: row[2] for row in sheet.iter_rows(min_row=HEADINGS, max_row=HEADINGS + 7, values_only=True)}
+    assert facts["audit"] == "passed"
+    assert facts["rebuilt from the lengths"] == "not done"
+    assert facts["droppers"] == "21"
+
+
+def test_a_missing_library_is_named_with_its_extra(
+    plane: FormResult, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def absent(name: str) -> Any:
+        raise ModuleNotFoundError(name)
+
+    monkeypatch.setattr(libraries, "import_module", absent)
+    with pytest.raises(UnsupportedError, match=r"XLSX needs XlsxWriter.*catenaria\[export\]"):
+        xlsx.write_xlsx(plane, tmp_path / "schedule.xlsx", 1e-3)

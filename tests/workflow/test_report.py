@@ -1,0 +1,89 @@
+"""From a folder to a report: studies beside it count if they belong to it, and files are written whole."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from catenaria import workflow
+from catenaria.errors import InconsistentInputError, UnsupportedError
+from catenaria.results import FormResult, save_result
+from catenaria.results.elasticity import ElasticityStudy
+from catenaria.workflow import pdf
+
+EXAMPLE = Path(__file__).parents[2] / "examples" / "yang2017_three_span.yaml"
+CASES = "format: 1\ncases:\n  warm: {temperature: {change: 40 K}}\n  windy: {wind: {speed: 20 m/s}}\n"
+
+
+@pytest.fixture(scope="module")
+def solved() -> FormResult:
+    return workflow.solve(EXAMPLE, rebuild="none")
+
+
+@pytest.fixture(scope="module")
+def studied(solved: FormResult) -> ElasticityStudy:
+    return workflow.elasticity(solved, spacing=5.0, nonuniformity_limit=0.25)
+
+
+@pytest.fixture
+def folder(solved: FormResult, tmp_path: Path) -> Path:
+    folder = tmp_path / "line"
+    save_result(solved, folder)
+    return folder
+
+
+def test_a_study_beside_the_result_counts(folder: Path, studied: ElasticityStudy) -> None:
+    name = "non-uniformity of elasticity"
+    before = {check.name: check for check in workflow.check_result(folder)}[name]
+    save_result(studied, folder.with_name("line-elasticity"))
+    check = {check.name: check for check in workflow.check_result(folder)}[name]
+    assert before.verdict == "not judged"
+    assert check.value == pytest.approx(100.0 * studied.nonuniformity)
+    assert check.limit == pytest.approx(25.0)
+    assert check.verdict == ("passes" if studied.nonuniformity <= 0.25 else "fails")
+    page = workflow.report(folder)
+    assert '<section id="elasticity">' in page
+    assert "elasticity-1" in page
+
+
+def test_load_cases_beside_the_result_count(folder: Path, solved: FormResult, tmp_path: Path) -> None:
+    cases = tmp_path / "cases.yaml"
+    cases.write_text(CASES)
+    save_result(workflow.under_loads(solved, cases), folder.with_name("line-loads"))
+    page = workflow.report(folder)
+    for text in ('<section id="cases">', "cases-height", "cases-lateral", "windy"):
+        assert text in page
+    assert '<section id="cases">' not in workflow.report(solved)
+
+
+def test_a_study_of_another_line_is_left_out(folder: Path, studied: ElasticityStudy) -> None:
+    other = replace(studied, inputs=studied.inputs | {"gravity": 9.9})
+    save_result(other, folder.with_name("line-elasticity"))
+    page = workflow.report(folder)
+    assert '<section id="elasticity">' not in page
+    assert "line-elasticity is left out" in page
+
+
+def test_a_damaged_study_is_not_passed_over(folder: Path, studied: ElasticityStudy) -> None:
+    beside = folder.with_name("line-elasticity")
+    save_result(studied, beside)
+    (beside / "result.npz").write_bytes(b"damaged")
+    with pytest.raises(InconsistentInputError, match="damaged"):
+        workflow.report(folder)
+
+
+def test_without_a_browser_nothing_is_written(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(pdf, "BROWSERS", ("no-such-browser",))
+    with pytest.raises(UnsupportedError, match="apt install chromium"):
+        workflow.write_report("<p>", tmp_path / "line.html", pdf=True)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_report_in_the_folder_of_the_result(solved: FormResult, tmp_path: Path) -> None:
+    files = workflow.write(solved, tmp_path / "line", figures=False, report=True)
+    assert tmp_path / "line" / "report.html" in files
+    assert (tmp_path / "line" / "report.html").read_text(encoding="utf-8") == workflow.report(solved)
+    again = workflow.write(solved, tmp_path / "line", figures=False)  # it belongs to the folder
+    assert tmp_path / "line" / "report.html" not in again
