@@ -17,11 +17,11 @@ from catenaria.results import NO_ARMS, Arms
 STITCHES = 3
 
 
-def arms(radial: list[float]) -> Arms:
+def arms(radial: list[float], registration: str = "pull-off") -> Arms:
     force, one = np.array(radial), np.ones(len(radial))
     place = np.zeros((one.size, 3))
     names = tuple(f"S{i + 1}" for i in range(one.size))
-    kinds = ("pull-off",) * one.size
+    kinds = (registration,) * one.size
     wires = ("contact wire",) * one.size
     return Arms(names, wires, kinds, one, place, place, one, one, one, one, force, force, one, 80.0 * one)
 
@@ -68,6 +68,13 @@ def test_arms_that_push_or_pull_too_little_are_a_caution(radial: float, named: s
     caution = space_lines(found(held=arms([120.0, radial])))[2]
     assert caution.startswith("Caution: steady arms")
     assert caution.endswith(f": {named}.")
+
+
+@pytest.mark.parametrize(("radial", "said"), [(-200.6, True), (200.6, False)])
+def test_push_off_arms_in_compression_are_a_caution(radial: float, said: bool) -> None:
+    cautions = [line for line in space_lines(found(held=arms([120.0, radial], "push-off"))) if "Caution" in line]
+    assert [caution.endswith(": S2 -200.6 N (push-off).") for caution in cautions] == [True] * said
+    assert all("in compression" in caution for caution in cautions)
 
 
 def test_slack_droppers_are_a_caution_and_not_all_are_named() -> None:

@@ -56,6 +56,11 @@ def stitched() -> FormResult:
     return solved("stitched_re250")
 
 
+@pytest.fixture
+def curve() -> FormResult:
+    return solved("curve_800m")
+
+
 @pytest.fixture(scope="session")
 def strings() -> FormResult:
     """Return a result of a method without nodes."""

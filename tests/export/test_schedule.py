@@ -31,7 +31,9 @@ def test_steps_of_no_use_are_refused(plane: FormResult, step: float) -> None:
 
 
 def test_halves_are_rounded_upwards() -> None:
-    np.testing.assert_array_equal(rounded_lengths(np.array([1.0005, 1.0015, 1.00149]), 1e-3), [1.001, 1.002, 1.001])
+    np.testing.assert_array_equal(
+        rounded_lengths(np.array([1.0005, 1.0015, 1.00149]), 1e-3), [1.001, 1.002, 1.001]
+    )
 
 
 def test_csv(every: FormResult, tmp_path: Path) -> None:

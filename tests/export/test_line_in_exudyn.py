@@ -1,0 +1,81 @@
+"""The exported script builds lines in Exudyn that stay at rest; collected where Exudyn is installed."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from catenaria.export import line_in_exudyn
+from catenaria.export.exudyn import SCRIPT, write_exudyn
+from catenaria.results import FormResult
+
+
+def run(folder: Path, *arguments: str) -> tuple[int, dict[str, float]]:
+    """Run the script as a user would, and return its exit code and what it says."""
+    done = subprocess.run(
+        [sys.executable, str(folder / SCRIPT), *arguments],
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=300,
+    )
+    assert done.returncode in (0, 1), done.stderr
+    return done.returncode, json.loads(done.stdout.splitlines()[-1])
+
+
+def test_every_example_stays_at_rest(every: FormResult, tmp_path: Path) -> None:
+    write_exudyn(every, tmp_path, modes=1)
+    code, said = run(tmp_path)
+    assert code == 0
+    assert said["movement_m"] < 0.1e-6
+    assert said["force_error"] < 1e-5
+
+
+@pytest.mark.parametrize("name", ["plane", "space", "stitched"])
+def test_and_in_time(name: str, tmp_path: Path, request: pytest.FixtureRequest) -> None:
+    write_exudyn(request.getfixturevalue(name), tmp_path, modes=1)
+    code, said = run(tmp_path, "--dynamic", "0.05")
+    assert code == 0
+    assert said["movement_m"] < 0.1e-6
+
+
+@pytest.mark.parametrize(
+    ("array", "index", "change"),
+    [
+        ("dropper_length", 4, 1e-3),
+        ("element_length", 100, 1e-3),
+        ("mass_weight", 3, 1.0),
+        ("dropper_lower_coordinate", 5, 0.05),
+    ],
+)
+def test_what_is_changed_is_noticed(
+    plane: FormResult, tmp_path: Path, array: str, index: int, change: float
+) -> None:
+    write_exudyn(plane, tmp_path, modes=1)
+    with np.load(tmp_path / "arrays.npz") as archive:
+        arrays = dict(archive)
+    arrays[array][index] += change
+    np.savez(tmp_path / "arrays.npz", **arrays)
+    code, said = run(tmp_path)
+    assert code == 1
+    assert max(said["movement_m"] / line_in_exudyn.MOVEMENT, said["force_error"] / line_in_exudyn.FORCE) > 3.0
+
+
+@pytest.mark.parametrize("left_out", ["strain", "bending"])
+def test_laws_must_be_converted(plane: FormResult, tmp_path: Path, left_out: str) -> None:
+    """Without the conversion of strains the line is elsewhere; without that of bending it is by more than 0.1 um."""
+    write_exudyn(plane, tmp_path, modes=1)
+    script = (tmp_path / SCRIPT).read_text(encoding="utf-8")
+    old, new = {
+        "strain": ("shorter = a - (tension - 2.0 * bending / a) / k", "shorter = np.ones_like(a)"),
+        "bending": ("2.0 * bending / a", "0.0 * bending / a"),
+    }[left_out]
+    assert old in script
+    (tmp_path / SCRIPT).write_text(script.replace(old, new), encoding="utf-8")
+    _, said = run(tmp_path)
+    assert said["movement_m"] > {"strain": 1e-5, "bending": 0.3e-6}[left_out]
