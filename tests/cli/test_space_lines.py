@@ -72,7 +72,8 @@ def test_arms_that_push_or_pull_too_little_are_a_caution(radial: float, named: s
 
 @pytest.mark.parametrize(("radial", "said"), [(-200.6, True), (200.6, False)])
 def test_push_off_arms_in_compression_are_a_caution(radial: float, said: bool) -> None:
-    cautions = [line for line in space_lines(found(held=arms([120.0, radial], "push-off"))) if "Caution" in line]
+    lines = space_lines(found(held=arms([120.0, radial], "push-off")))
+    cautions = [line for line in lines if "Caution" in line]
     assert [caution.endswith(": S2 -200.6 N (push-off).") for caution in cautions] == [True] * said
     assert all("in compression" in caution for caution in cautions)
 

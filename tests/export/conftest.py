@@ -27,6 +27,7 @@ LINES = (
     "bridge",
     "two_contact_wires_3kv",
 )
+WITH_FRICTION = ("simple_60m",)
 
 
 @cache
@@ -37,6 +38,11 @@ def solved(name: str) -> FormResult:
 
 @pytest.fixture(params=LINES)
 def every(request: pytest.FixtureRequest) -> FormResult:
+    return solved(request.param)
+
+
+@pytest.fixture(params=[name for name in LINES if name not in WITH_FRICTION])
+def frictionless(request: pytest.FixtureRequest) -> FormResult:
     return solved(request.param)
 
 

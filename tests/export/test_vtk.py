@@ -42,7 +42,8 @@ def test_curvature_between_droppers_is_weight_by_tension(plane: FormResult, tmp_
     n = form.profile.s.size
     curvature = mesh.point_data["curvature_per_m"][:n]
     found = np.interp(middle[bays], form.profile.x, curvature)
-    np.testing.assert_allclose(found, wire.rhoA * line.gravity / form.tension, rtol=0.02)
+    weight = wire.rhoA * line.gravity / form.tension
+    np.testing.assert_allclose(found, weight, rtol=0.05)  # by elements of 2 m
     np.testing.assert_allclose(curvature * wire.EJ, form.profile.moment, rtol=1e-12)
 
 

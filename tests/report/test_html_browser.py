@@ -114,6 +114,18 @@ def test_pointing_says_chainage_height_and_force(browser: Browser, file: Path) -
     watched.page.close()
 
 
+def test_no_button_sends_anything(browser: Browser, file: Path) -> None:
+    watched = Watched(browser, file, 1200, "light")
+    buttons = watched.page.locator("#profile-1 .modebar-btn")
+    titles = [buttons.nth(i).get_attribute("data-title") for i in range(buttons.count())]
+    assert titles == ["Download plot as a PNG", "Zoom", "Pan", "Zoom in", "Zoom out", "Reset axes"]
+    with watched.page.expect_download() as download:
+        watched.page.locator("#profile-1 .modebar-btn").first.dispatch_event("click")
+    assert download.value.suggested_filename.endswith(".png")
+    assert watched.said == []
+    watched.page.close()
+
+
 def test_on_paper_nothing_is_folded(browser: Browser, file: Path) -> None:
     watched = Watched(browser, file, 1200, "dark")
     closed = "document.querySelectorAll('details:not([open])').length"

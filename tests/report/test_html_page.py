@@ -177,3 +177,13 @@ def test_the_input_is_echoed(light: Callable[..., str], paper: FormResult) -> No
     words = " ".join(read(light()).text)
     assert "force: 15000.0" in words
     assert paper.versions["numpy"] in words
+
+
+@pytest.mark.parametrize("count", [0, 1])
+def test_hardly_any_droppers(light: Callable[..., str], paper: FormResult, count: int) -> None:
+    droppers = paper.droppers
+    few = {name: getattr(droppers, name)[:count] for name in droppers.__dataclass_fields__}
+    reader = read(light(replace(paper, droppers=replace(droppers, **few)), speed=50.0))
+    words = " ".join(reader.text)
+    assert ("there are no droppers" in words) is (count == 0)
+    assert "no span has two droppers" in words

@@ -44,8 +44,8 @@ def _arm_lines(result: FormResult) -> list[str]:
     if pushed.size:
         named = (f"{arms.support[k]} {arms.radial[k]:.1f} N ({arms.registration[k]})" for k in pushed)
         lines.append(
-            "Caution: steady arms in compression, although hinged arms are built for tension; `side` says where "
-            f"the hinge is: {_some(list(named))}."
+            "Caution: steady arms in compression, although hinged arms are built for tension; `side` says "
+            f"where the hinge is: {_some(list(named))}."
         )
     return lines
 

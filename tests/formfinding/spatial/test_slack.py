@@ -9,13 +9,19 @@ import numpy as np
 import pytest
 
 from catenaria.audit import audit_result
+from catenaria.discretise.spatial.demands import to_find
+from catenaria.discretise.spatial.lay_out import lay_out
+from catenaria.discretise.spatial.model import guessed_model
 from catenaria.errors import InfeasibleError
 from catenaria.formfinding.spatial.direct import find_directly
+from catenaria.formfinding.spatial.gather import gather
 from catenaria.formfinding.spatial.rebuild import rebuild_in_space
+from catenaria.formfinding.static_problem import find_rest
 from catenaria.line import Line, load_line
-from catenaria.results.form import FormResult
+from catenaria.results.form import Counters, FormResult
 
 EXAMPLE = Path(__file__).parents[3] / "examples" / "yang2017_three_span.yaml"
+NO_WORK = Counters("line", 0.0, 0.0, 0, 0, 0, 0, 0, 0, 0)
 HIGH = (0.0, -0.03, -0.05, 0.0, -0.05, -0.03, 0.0)  # m: the wire cannot get down beside its middle dropper
 
 
@@ -37,6 +43,31 @@ def test_is_refused_by_name_where_it_is_not_allowed() -> None:
         find_directly(line("refused"), None)
 
 
+def test_a_motion_that_leaves_droppers_pushing_says_which_method_lets_them_hang_slack() -> None:
+    """Where slack is allowed, less pre-sag is not the first thing to try; where it is not, it is."""
+    for slack, advice in (("allowed", "the method direct does"), ("refused", "a smaller pre-sag")):
+        model = guessed_model(lay_out(line(slack)))
+        system = to_find(model, model.unknowns.start, np.zeros(model.length.size, dtype=np.bool_))
+        pushing = find_rest(system, model.unknowns.start).y
+        with pytest.raises(InfeasibleError) as caught:
+            gather(line(slack), model, pushing, "dynamic", "", NO_WORK)
+        assert advice in str(caught.value)
+        assert ("the method direct does" in str(caught.value)) == (slack == "allowed")
+
+
+@pytest.mark.parametrize(("bridged", "told"), [(2.0, "; and 13 more. The clamps"), (0.0, "")])
+def test_not_all_of_many_droppers_are_named(bridged: float, told: str) -> None:
+    data = line("refused", (0.0,) * 7).model_dump()
+    data["dropper"]["clamp_height_top"] = bridged
+    if not told:
+        assert find_directly(Line.model_validate(data), None).droppers.x.size == 8 + 13
+        return
+    with pytest.raises(InfeasibleError) as caught:
+        find_directly(Line.model_validate(data), None)
+    assert told in str(caught.value)
+    assert str(caught.value).count("dropper ") == 8
+
+
 def test_slack_droppers_carry_nothing_and_the_wire_is_higher_there(found: FormResult) -> None:
     droppers = found.droppers
     assert set(droppers.number[droppers.slack].tolist()) == {3, 5}
@@ -48,7 +79,7 @@ def test_slack_droppers_carry_nothing_and_the_wire_is_higher_there(found: FormRe
 
 
 def test_the_wire_runs_past_slack_droppers_as_if_they_were_not_there(found: FormResult) -> None:
-    """A string between the neighbours, under its own weight: z'' = w/T; and under another tension it does not."""
+    """A string between the neighbours, under its own weight: z'' = w/T; under another tension it is not."""
     x, z = found.droppers.x[1:4], found.droppers.height[1:4]
     w = 7710 * 120e-6 * 9.8
     half = 0.5 * 9.8 * 8900 * 10e-6 * float(found.droppers.length[2])

@@ -23,8 +23,8 @@ _COMPRESSION: Final = (
     "tension or other dropper positions would help"
 )
 _NOT_SLACK: Final = (
-    "They may hang slack, but the dynamic method lets no dropper do so: the method direct does, and a smaller "
-    "pre-sag, less tension or other dropper positions would help"
+    "They may hang slack, but the dynamic method lets no dropper do so: the method direct does, and a "
+    "smaller pre-sag, less tension or other dropper positions would help"
 )
 _MOST_NAMES: Final = 8
 _UPSIDE_DOWN: Final = "The upper wire sags below the lower one: more tension or higher supports would help"

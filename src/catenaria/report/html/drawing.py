@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 FloatArray = NDArray[np.float64]
 Trace = dict[str, Any]
 
+_CLEAR = "rgba(0,0,0,0)"
 _MOST_NAMES = 12  # of supports above one panel
 _COLOURS = {
     "contact wire": "contact",
@@ -180,14 +181,15 @@ def layout(
         "hovermode": "closest",
         "dragmode": "zoom",
         "font": {"family": "system-ui, sans-serif", "size": 12, "color": colour("ink")},
-        "paper_bgcolor": "rgba(0,0,0,0)",
-        "plot_bgcolor": "rgba(0,0,0,0)",
+        "paper_bgcolor": _CLEAR,
+        "plot_bgcolor": _CLEAR,
         "hoverlabel": {
             "bgcolor": colour("card"),
             "bordercolor": colour("line"),
             "font": {"color": colour("ink")},
             "align": "left",
         },
+        "modebar": {"bgcolor": _CLEAR, "color": colour("line"), "activecolor": colour("ink")},
         "legend": {"orientation": "h", "x": 0, "y": 1.12, "xanchor": "left", "yanchor": "bottom"},
         "margin": {"l": 64, "r": 16, "t": 64, "b": 44},
     }

@@ -2,7 +2,13 @@
 (() => {
   const drawings = JSON.parse(document.getElementById("drawings").textContent);
   const themes = window.matchMedia("screen and (prefers-color-scheme: dark)");
-  const config = {displaylogo: false, responsive: false, modeBarButtonsToRemove: ["lasso2d", "select2d"]};
+  // All buttons are named, because Plotly's own set has one that sends the figure to a server.
+  const config = {
+    displaylogo: false,
+    responsive: false,
+    plotlyServerURL: "",
+    modeBarButtons: [["toImage", "zoom2d", "pan2d", "zoomIn2d", "zoomOut2d", "resetScale2d"]],
+  };
   const narrow = 560; // px: below it, axes take less room
   let onPaper = null; // width of the page [px] while it is printed
 
@@ -37,7 +43,8 @@
         if (shown && place.zoomed) layout[axis] = {...layout[axis], range: shown.range.slice(), autorange: false};
       }
     }
-    Plotly.react(place, one.data.map((trace) => resolved(trace, style)), layout, config);
+    const shown = {...config, displayModeBar: width < narrow ? false : "hover"};
+    Plotly.react(place, one.data.map((trace) => resolved(trace, style)), layout, shown);
     if (!place.listening) {
       place.listening = true;
       place.on("plotly_relayout", (event) => {
