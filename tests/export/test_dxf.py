@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections import Counter
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
-import ezdxf
 import numpy as np
 import pytest
 from numpy.typing import NDArray
@@ -15,13 +15,16 @@ from catenaria.export.dxf import EXAGGERATION, LAYERS, write_plan_dxf, write_pro
 from catenaria.line import Line
 from catenaria.results import FormResult
 
+ezdxf: Any = import_module("ezdxf")
+units: Any = import_module("ezdxf.units")
+
 
 def read(file: Path) -> Any:
     """Return a drawing that has no faults."""
     document = ezdxf.readfile(file)
     auditor = document.audit()
     assert (auditor.errors, auditor.fixes) == ([], [])
-    assert document.units == ezdxf.units.M
+    assert document.units == units.M
     assert set(LAYERS) <= {layer.dxf.name for layer in document.layers}
     return document.modelspace()
 

@@ -110,7 +110,7 @@ def _read(
         nonlinear,
         None if start is None else quantity("--from", start, LENGTH),
         None if end is None else quantity("--to", end, LENGTH),
-        () if most is None else (quantity("--max-elasticity", most, flexibility),),
+        () if most is None else (_with_unit("--max-elasticity", most, flexibility),),
         () if uneven is None else (0.01 * uneven,),
     )
 
@@ -120,8 +120,9 @@ def _study(
 ) -> tuple[ElasticityStudy, int]:
     """Return the study and the number of files that were written."""
     from catenaria import results, workflow
+    from catenaria.results.elasticity import ElasticityStudy
 
-    results.require_replaceable(folder)
+    results.require_replaceable(folder, ElasticityStudy)
     try:
         with points_shown(console) as tell:
             study = workflow.elasticity_as(source, wanted, tell)
@@ -132,6 +133,16 @@ def _study(
     except OSError as error:
         complain(f"{folder} cannot be written: {error.strerror}")
         raise typer.Exit(BAD_INPUT) from error
+
+
+def _with_unit(option: str, text: str, dimension: Dimension) -> float:
+    """Return what an option gives, which in SI would be a number that nobody expects."""
+    from catenaria.errors import InconsistentInputError
+
+    value = quantity(option, text, dimension)
+    if not any(letter.isalpha() for letter in text.lower().replace("e", "")):
+        raise InconsistentInputError(f"{option}: found {text!r}; allowed: a unit behind it, {dimension.example}")
+    return value
 
 
 def quantity(option: str, text: str, dimension: Dimension) -> float:

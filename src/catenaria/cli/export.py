@@ -44,6 +44,7 @@ def export(
 
     Example:
 
+    \b
       catenaria solve examples/simple_60m.yaml --out results/simple_60m
       catenaria export results/simple_60m --format xlsx --step 5mm --out droppers.xlsx
       catenaria export results/simple_60m --format dxf --format vtk --out drawings
@@ -72,8 +73,7 @@ def export(
         options = workflow.ExportOptions(positive_length("--step", step), modes)
         found = results.load_result(result)
         everything = Format.ALL in formats
-        wanted = {str(name) for name in formats}
-        named = tuple(name for name in workflow.FORMATS if name in wanted)
+        named = tuple(name for name in workflow.FORMATS if Format(name) in formats)
         chosen = workflow.formats_of(found) if everything else named
         place = _beside(result, formats) if out is None else out
         try:

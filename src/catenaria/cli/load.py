@@ -11,13 +11,16 @@ from rich.console import Console
 from rich.table import Table
 
 from catenaria.cli.failures import BAD_INPUT, INTERRUPTED, complain, failures_reported
+from catenaria.cli.tolerance import beside
 
 if TYPE_CHECKING:
     from catenaria.results.case import CaseResult, LoadStudy
 
 
 def load(
-    result: Annotated[Path, typer.Argument(metavar="RESULT", help="Folder that `catenaria solve` wrote.")],
+    source: Annotated[
+        Path, typer.Argument(metavar="RESULT|LINE", help="Folder that `solve` wrote, or a line file.")
+    ],
     case: Annotated[
         list[str] | None,
         typer.Option(metavar="FILE[:NAME]", help="File of load cases, or one of them; several times."),
@@ -37,7 +40,7 @@ def load(
     out: Annotated[
         Path | None,
         typer.Option(
-            help="Folder for the results.", show_default="that of RESULT with -loads behind its name"
+            help="Folder for the results.", show_default="beside RESULT, with -loads behind its name"
         ),
     ] = None,
     no_figures: Annotated[bool, typer.Option("--no-figures", help="Write no figures.")] = False,
@@ -72,17 +75,18 @@ def load(
     with failures_reported():
         from catenaria import results, workflow
         from catenaria.line.load_options import read_cases
+        from catenaria.results.case import LoadStudy
 
         cases = read_cases(case or (), temperature or (), wind, push or ())
-        folder = _beside(result) if out is None else out
-        results.require_replaceable(folder)
+        folder = beside(source, "loads") if out is None else out
+        results.require_replaceable(folder, LoadStudy)
         try:
             with console.status("Reading the result") as status:
 
                 def show(name: str, number: int, count: int) -> None:
                     status.update(f"Case {number} of {count}: {name}")
 
-                study = workflow.under_loads(result, cases, show)
+                study = workflow.under_loads(source, cases, show)
                 status.update("Writing the results")
                 files = workflow.write_loads(study, folder, figures=not no_figures)
         except KeyboardInterrupt:
@@ -96,12 +100,6 @@ def load(
         f"\nWritten to {folder}: {len(files)} files, done after {time.perf_counter() - began:.1f} s.",
         soft_wrap=True,
     )
-
-
-def _beside(result: Path) -> Path:
-    folder = result if result.is_dir() else result.parent
-    folder = folder.resolve()
-    return folder.with_name(f"{folder.name}-loads")
 
 
 def show_study(study: LoadStudy, console: Console) -> None:

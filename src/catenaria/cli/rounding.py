@@ -53,10 +53,11 @@ def rounding(
     console = Console(markup=False, highlight=False, emoji=False)
     with failures_reported():
         from catenaria import results, workflow
+        from catenaria.results.rounding import RoundingStudy
 
         steps = [positive_length("--step", text) for text in step or _STEPS]
         folder = beside(source, "rounding") if out is None else out
-        results.require_replaceable(folder)
+        results.require_replaceable(folder, RoundingStudy)
         try:
             with console.status("Bringing the line to rest"):
                 study = workflow.rounding(source, steps)

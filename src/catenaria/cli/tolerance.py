@@ -81,6 +81,7 @@ def tolerance(
     with failures_reported():
         from catenaria import results, workflow
         from catenaria.loading.tolerance import Options
+        from catenaria.results.tolerance import ToleranceStudy
 
         folder = beside(source, "tolerance") if out is None else out
         options = Options(
@@ -89,7 +90,7 @@ def tolerance(
             workers=workers or os.cpu_count() or 1,
             tolerance=positive_length("--tolerance", limit),
         )
-        results.require_replaceable(folder)
+        results.require_replaceable(folder, ToleranceStudy)
         try:
             with samples_shown(console) as tell:
                 study = workflow.tolerances(source, errors, options, seed, tell)

@@ -18,6 +18,7 @@ from catenaria.line.source import Source
 from catenaria.units import Length, NonNegativeLength, PositiveDensity
 
 _NAME: Final = re.compile(r"[\w][\w .+-]*")
+_FILE: Final = re.compile(r".*\.(csv|json|npz|png)", re.IGNORECASE)  # as files beside the folders of cases
 
 
 class TemperatureLoad(LineModel):
@@ -78,7 +79,7 @@ class Wind(LineModel):
         default=1.0, description="Factor of the wind pressure for gusts; 1 if the speed is that of gusts."
     )
     on: tuple[Literal["wires", "droppers"], ...] = Field(
-        default=("wires", "droppers"), description="On what it acts."
+        default=("wires", "droppers"), min_length=1, description="On what it acts."
     )
 
 
@@ -204,8 +205,12 @@ class LoadCases(LineModel):
     def _problems(self) -> Iterator[Problem]:
         if not self.cases:
             yield Problem(("cases",), {}, "one load case or more, each with its name")
+        folders: dict[str, str] = {}
         for name in self.cases:
-            if not _NAME.fullmatch(name) or name.endswith((".", " ")):
+            same = folders.setdefault(name.casefold(), name)
+            if same != name:
+                yield Problem(("cases", name), name, f"a name that differs from {same} by more than its case")
+            if not _NAME.fullmatch(name) or name.endswith((".", " ")) or _FILE.fullmatch(name):
                 allowed = "a name of letters, digits, spaces and _ . + - that can be one of a folder"
                 yield Problem(("cases", name), name, allowed)
 

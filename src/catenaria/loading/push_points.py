@@ -20,6 +20,7 @@ IntArray = NDArray[np.int64]
 Matrix = Any  # SciPy's csr_array
 
 _SAME = 1e-6  # m: points that are nearer are one
+_MOST = 100_000  # points: more than two for each metre of the longest tension length, by far
 
 
 @dataclass(frozen=True)
@@ -92,7 +93,7 @@ def push_points(
     Raises
     ------
     InconsistentInputError
-        If the spacing is not positive, or nothing is between start and end.
+        If the spacing is not positive or makes too many points, or nothing is between start and end.
     """
     spans = stretches(line, model)
     first, last = spans[0].start, spans[-1].end
@@ -103,6 +104,10 @@ def push_points(
         raise InconsistentInputError(
             f"nothing to push from {begin:g} to {stop:g} m; supports hold the contact wire from {first:g} "
             f"to {last:g} m"
+        )
+    if stop - begin > _MOST * spacing:
+        raise InconsistentInputError(
+            f"a spacing of {spacing:g} m from {begin:g} to {stop:g} m makes too many points; at most {_MOST} fit"
         )
     places = _places(line, model, spans, begin, stop)
     known = np.array(sorted(places), dtype=np.float64)

@@ -3,7 +3,8 @@
 A new folder is filled beside the old one under a hidden name and takes its place by renaming, so an
 interruption leaves the old folder or the new one. A manifest lists every file with its SHA-256: a later run
 replaces a folder only if each file in it is listed there and unchanged. Files that somebody added or edited
-are therefore never deleted; the run is refused instead, and says which file stands in the way.
+are therefore never deleted; the run is refused instead, and says which file stands in the way. So is one that
+would replace a result of another kind, such as a line that was found by load cases of it.
 """
 
 from __future__ import annotations
@@ -20,9 +21,12 @@ from pathlib import Path
 from typing import Any, cast
 
 from catenaria.errors import InconsistentInputError
+from catenaria.results.store import FORMATS, JSON_NAME
 
 MANIFEST_NAME = "manifest.json"
 _FORMAT = "catenaria output folder"
+_HEAD = 200  # bytes of a result's file in which its kind is stated
+_STATED_KIND = re.compile(rb'"format": "(catenaria [ -~]*?)"')
 _HIDDEN = re.compile(r"\.(.+)\.[0-9a-f]{8}\.(?:new|old)")  # names that a run gives to its folders meanwhile
 
 
@@ -33,7 +37,8 @@ def replace_folder(folder: str | os.PathLike[str]) -> Generator[Path, None, None
     Parameters
     ----------
     folder : path
-        Does not exist yet, is empty, or was written through this function and not touched since.
+        Does not exist yet, is empty, or was written through this function and not touched since. If it holds
+        a result, the block writes one of the same kind.
 
     Yields
     ------
@@ -69,18 +74,21 @@ def replace_folder(folder: str | os.PathLike[str]) -> Generator[Path, None, None
         new.mkdir()
         yield new
         _write_manifest(new)
+        _refuse_another_kind(target, _kind(new))
         _exchange(new, require_replaceable(target), target.with_name(f".{target.name}.{token}.old"))
     finally:
         shutil.rmtree(new, ignore_errors=True)
 
 
-def require_replaceable(folder: str | os.PathLike[str]) -> Path:
+def require_replaceable(folder: str | os.PathLike[str], kind: type | None = None) -> Path:
     """Refuse a folder that `replace_folder` must not replace; ask before a long computation, not after it.
 
     Parameters
     ----------
     folder : path
         The folder that is to be replaced.
+    kind : type, optional
+        Type of the result that is to be written into it; a folder with one of another kind is refused then.
 
     Returns
     -------
@@ -91,7 +99,7 @@ def require_replaceable(folder: str | os.PathLike[str]) -> Path:
     ------
     InconsistentInputError
         If it is a file, lies where nothing can be written, contains the current working folder, or holds a
-        file that is not listed in its manifest or was changed since.
+        file that is not listed in its manifest or was changed since, or a result of another kind.
     """
     target = Path(folder).resolve()
     if not target.exists():
@@ -108,6 +116,8 @@ def require_replaceable(folder: str | os.PathLike[str]) -> Path:
             "Move that file away, or name another folder"
         )
     _require_writable_above(target)
+    if kind is not None:
+        _refuse_another_kind(target, FORMATS[kind])
     return target
 
 
@@ -159,6 +169,23 @@ def _require_writable_above(target: Path) -> None:
     above = next(parent for parent in target.parents if parent.exists())
     if not (above.is_dir() and os.access(above, os.W_OK | os.X_OK)):
         raise InconsistentInputError(f"{target} cannot be written: {above} is not a folder to write into")
+
+
+def _refuse_another_kind(target: Path, kind: str | None) -> None:
+    """Refuse a folder with a result that is not of the kind that is to take its place."""
+    there = _kind(target)
+    if there not in (None, kind):
+        raise InconsistentInputError(f"{target} is left as it is: it holds a {there}. Name another folder")
+
+
+def _kind(folder: Path) -> str | None:
+    """Return of what kind the result in a folder is, which its file says first, or None."""
+    try:
+        with (folder / JSON_NAME).open("rb") as file:
+            found = _STATED_KIND.search(file.read(_HEAD))
+    except OSError:
+        return None
+    return None if found is None else found[1].decode()
 
 
 def _foreign_file(folder: Path) -> str | None:

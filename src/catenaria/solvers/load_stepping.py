@@ -161,7 +161,8 @@ def _release(released: Released, held: FloatArray, options: SteppingOptions) -> 
         except (NotConvergedError, InfeasibleError) as error:
             released, step = replace(released, refused=released.refused + 1), 0.5 * step
             if step < options.smallest:
-                raise _failure(released, f"load stepping is stuck; {error}") from error
+                why = error.reason if isinstance(error, NotConvergedError) else str(error)
+                raise _failure(released, f"load stepping is stuck; {why}") from error
             continue
         iterations = released.iterations + root.iterations
         released = Released(root, np.append(released.parts, part), released.refused, iterations)

@@ -15,14 +15,15 @@ from catenaria.loading.case import solve_case
 from catenaria.loading.check_case import check_cases
 from catenaria.loading.read_case import line_state
 from catenaria.report.case_tables import write_case_tables
-from catenaria.results import FormResult, load_result, replace_folder, save_result
+from catenaria.results import FormResult, replace_folder, save_result
 from catenaria.results.case import CaseResult, LoadStudy
+from catenaria.workflow.tolerance import found
 
 CaseListener = Callable[[str, int, int], None]
 
 
 def under_loads(
-    result: FormResult | str | os.PathLike[str],
+    source: FormResult | Line | str | os.PathLike[str],
     cases: LoadCases | str | os.PathLike[str],
     progress: CaseListener | None = None,
 ) -> LoadStudy:
@@ -30,8 +31,8 @@ def under_loads(
 
     Parameters
     ----------
-    result : FormResult or path
-        What was found, or the folder in which it was written.
+    source : FormResult, Line or path
+        What was found, the folder in which it was written, or a line or its file, which is solved first.
     cases : LoadCases or path
         The cases, or the file that describes them.
     progress : callable, optional
@@ -50,11 +51,9 @@ def under_loads(
     NotConvergedError, InfeasibleError
         If the line does not come to rest under a case; the message names it.
     """
-    if not isinstance(result, FormResult):
-        result = load_result(result)
     if not isinstance(cases, LoadCases):
         cases = load_cases(Path(cases))
-    line = Line.model_validate(result.inputs)
+    line, result = found(source)
     check_cases(cases, result)
     built = BuiltLine.of(line, result)
     before = line_state(line, built.at_rest, np.zeros(built.model.length.size, dtype=np.bool_))

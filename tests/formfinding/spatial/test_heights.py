@@ -10,6 +10,7 @@ import pytest
 from scipy.optimize import brentq
 
 from catenaria.catenary.green_bar import stretch
+from catenaria.errors import InfeasibleError
 from catenaria.line import Line
 from catenaria.results import FormResult
 
@@ -177,6 +178,22 @@ def test_a_line_on_a_gradient_follows_the_track(make: Make, find: Find, strings:
     check_gradient(find(make(3, strings)), 0.0)
 
 
+def kinked(rounding: float) -> Change:
+    """Return a track whose slope changes by 6 mm/m at the middle dropper of the first span: 90 N of 15 kN."""
+    return {"track": {"gradients": [{"start": 30.0, "slope": 0.006, "rounding": rounding}]}}
+
+
+def test_droppers_that_push_at_a_change_of_slope_are_refused_with_a_vertical_curve_as_advice(
+    make: Make, find: Find
+) -> None:
+    with pytest.raises(InfeasibleError, match=r"dropper 3 in span 1 .* longer rounding"):
+        find(make(2, kinked(0.0)))
+    assert find(make(2, kinked(40.0))).droppers.force_bottom.min() > 0.0
+    with pytest.raises(InfeasibleError) as level:
+        find(make(2, {"spans.0.contact_wire_height": [5.3, 5.3, 5.2, 5.3, 5.3]}))
+    assert "rounding" not in str(level.value)
+
+
 def in_curve(radius: float, chainage: float, b: float, h: float, sin_phi: float) -> np.ndarray:
     """Return the point with lateral offset b and height h in the canted plane of a curve to the left [m].
 
@@ -209,3 +226,17 @@ def test_heights_are_normal_to_the_canted_track(make: Make, find: Find) -> None:
         check_cant(result, 0.15 / 1.5001)
     wider = {"curves": [curve], "rail_spacing": 1.4}
     check_cant(find(make(2, {"track": wider, "supports.*.stagger": -0.2})), 0.15 / 1.4)
+
+
+def test_a_messenger_that_hangs_plumb_is_outside_of_the_contact_wire(make: Make, find: Find) -> None:
+    """Seen from the canted track: by the encumbrance times the tangent; what is left are the arcs."""
+    track = {"curves": [{"start": -300.0, "length": 900.0, "radius": 600.0, "cant": 0.15}]}
+    aside = 1.4 * np.tan(np.arcsin(0.1))
+
+    def lean(messenger: float) -> float:
+        staggers = {"supports.*.stagger": -0.2, "supports.*.messenger_stagger": messenger}
+        return float(np.degrees(find(make(2, {"track": track}, staggers)).droppers.inclination.max()))
+
+    assert lean(-0.2 - aside) < 0.2
+    assert lean(-0.2) > 4.0
+    assert lean(-0.2 + aside) > 8.0

@@ -26,6 +26,7 @@ _NOT_SLACK: Final = (
     "They may hang slack, but the dynamic method lets no dropper do so: the method direct does, and a "
     "smaller pre-sag, less tension or other dropper positions would help"
 )
+_KINK: Final = ", and so would a longer rounding where the slope of the track changes beside them"
 _MOST_NAMES: Final = 8
 _UPSIDE_DOWN: Final = "The upper wire sags below the lower one: more tension or higher supports would help"
 _SHORT: Final = "The clamps bridge more than there is between the wires: check the clamp heights"
@@ -64,7 +65,7 @@ def gather(
         Naming droppers that would be in compression, upside down or without length, and what would help.
     """
     found = read_back(line, model, z, bands)
-    _refuse_impossible(model, z, found)
+    _refuse_impossible(line, model, z, found)
     return FormResult(
         name=line.name,
         method=method,
@@ -85,16 +86,18 @@ def gather(
     )
 
 
-def _refuse_impossible(model: SpatialModel, z: FloatArray, found: Found) -> None:
+def _refuse_impossible(line: Line, model: SpatialModel, z: FloatArray, found: Found) -> None:
     droppers, names = found.droppers, dropper_names(model)
     rise = droppers.position_top[:, 2] - droppers.position_bottom[:, 2]
     weakest = np.minimum(droppers.force_top, droppers.force_bottom)
     may_be_slack = model.layout.droppers.may_be_slack
     pushes = (weakest < 0.0) & (not may_be_slack or z[model.density] < -_NOTHING)
-    advice_on_pushing = _NOT_SLACK if may_be_slack else _COMPRESSION  # direct leaves none of these that push
+    why = _NOT_SLACK if may_be_slack else _COMPRESSION  # where slack is allowed, direct leaves none that push
+    if line.track.gradients:
+        why += _KINK
     for size, wrong, unit, what, advice in (
         (rise, rise <= 0.0, "m", "would stand upside down", _UPSIDE_DOWN),
-        (weakest, pushes, "N", "would be in compression", advice_on_pushing),
+        (weakest, pushes, "N", "would be in compression", why),
         (droppers.cut_length, droppers.cut_length <= 0.0, "m", "would be cut to nothing", _SHORT),
     ):
         if np.any(wrong):

@@ -27,7 +27,7 @@ class Mast:
 
 @dataclass(frozen=True)
 class Bay:
-    """A span: where it is drawn, what is written below in two lines, places and upper ends of its droppers."""
+    """A span: where it is drawn, two lines written below it, places and upper ends of its droppers."""
 
     x0: float
     x1: float
