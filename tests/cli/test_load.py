@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 from pathlib import Path
 
 import pytest
@@ -9,7 +10,7 @@ from typer.testing import CliRunner
 
 from catenaria.cli.main import app
 from catenaria.errors import NotConvergedError
-from catenaria.results import save_result
+from catenaria.results import replace_folder, save_result
 from catenaria.workflow import solve
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "yang2017_three_span.yaml"
@@ -82,6 +83,25 @@ def test_a_folder_of_somebody_else_is_left(solved: Path, tmp_path: Path) -> None
     outcome = RUN.invoke(app, ["load", str(solved), "--wind", "20 m/s", "--out", str(tmp_path)])
     assert outcome.exit_code == 2
     assert (tmp_path / "notes.txt").read_text() == "keep"
+
+
+def test_the_result_itself_is_not_replaced(solved: Path, tmp_path: Path) -> None:
+    line = tmp_path / "line"
+    with replace_folder(line) as new:
+        shutil.copytree(solved, new, dirs_exist_ok=True)
+    before = (line / "result.json").read_bytes()
+    for command, *options in (("load", "--wind", "20 m/s"), ("elasticity",), ("rounding",), ("tolerance",)):
+        outcome = RUN.invoke(app, [command, str(line), *options, "--out", str(line)])
+        assert outcome.exit_code == 2
+        assert "it holds a catenaria form-finding result" in outcome.stderr
+    assert (line / "result.json").read_bytes() == before
+
+
+def test_a_line_is_solved_first(tmp_path: Path) -> None:
+    arguments = ["load", str(EXAMPLE), "--push", "100N@65m", "--no-figures", "--out", str(tmp_path / "out")]
+    outcome = RUN.invoke(app, arguments)
+    assert outcome.exit_code == 0, outcome.output
+    assert (tmp_path / "out" / "push 100 N at 65 m" / "pushes.csv").exists()
 
 
 def test_no_rest(solved: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

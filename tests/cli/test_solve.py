@@ -251,6 +251,7 @@ def test_a_wrong_command_line_is_bad_input(workflow: Any, arguments: list[str]) 
 def test_wires_are_not_told_to_be_cut(workflow: Any) -> None:
     """Their length lies between the end supports: tails come on top."""
     text = run("a.yaml").stdout
+    assert "Unstressed lengths are those at 15 °C." in text
     droppers, _, wires = text.partition("Wires: unstressed length between the end supports")
     assert "cut to [m]" in droppers
     assert "cut to" not in wires

@@ -5,9 +5,11 @@ from __future__ import annotations
 from functools import cache
 from importlib.util import find_spec
 from pathlib import Path
+from typing import Any
 
 import pytest
 
+from catenaria.line import Line, load_line
 from catenaria.results import FormResult
 from catenaria.workflow import solve
 
@@ -31,6 +33,21 @@ WITH_FRICTION = ("simple_60m",)
 
 
 @cache
+def varied(name: str) -> FormResult:
+    """Return the three-span line with droppers that are rigid, or some of them slack, or both."""
+    line: dict[str, Any] = load_line(FOLDER / "yang2017_three_span.yaml").model_dump()
+    if "rigid" in name:
+        line["dropper"]["model"] = "rigid"
+    if "slack" in name:
+        line["dropper"] |= {
+            "model": line["dropper"]["model"] if "rigid" in name else "bar",
+            "slack": "allowed",
+        }
+        line["spans"][1]["contact_wire_height"] = [0.0, 0.0, 0.0, 0.08, 0.0, 0.0, 0.0]
+    return solve(Line.model_validate(line), rebuild="none")
+
+
+@cache
 def solved(name: str) -> FormResult:
     """Return what the direct method finds for an example."""
     return solve(FOLDER / f"{name}.yaml", rebuild="none")
@@ -44,6 +61,12 @@ def every(request: pytest.FixtureRequest) -> FormResult:
 @pytest.fixture(params=[name for name in LINES if name not in WITH_FRICTION])
 def frictionless(request: pytest.FixtureRequest) -> FormResult:
     return solved(request.param)
+
+
+@pytest.fixture(params=["rigid", "slack", "rigid and slack"])
+def unlike(request: pytest.FixtureRequest) -> FormResult:
+    """Return lines with droppers that are no springs."""
+    return varied(request.param)
 
 
 @pytest.fixture

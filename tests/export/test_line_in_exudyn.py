@@ -6,13 +6,22 @@ import json
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
+from scipy.linalg import eigh, null_space
+from scipy.sparse import load_npz
 
 from catenaria.export import line_in_exudyn
 from catenaria.export.exudyn import SCRIPT, write_exudyn
+from catenaria.line import Line, load_line
 from catenaria.results import FormResult
+from catenaria.workflow import solve
+
+FloatArray = NDArray[np.float64]
+EXAMPLE = Path(__file__).parents[2] / "examples" / "yang2017_three_span.yaml"
 
 
 def run(folder: Path, *arguments: str) -> tuple[int, dict[str, float]]:
@@ -34,6 +43,13 @@ def test_every_example_stays_at_rest(every: FormResult, tmp_path: Path) -> None:
     assert code == 0
     assert said["movement_m"] < 0.1e-6
     assert said["force_error"] < 1e-5
+
+
+def test_so_do_lines_with_rigid_and_slack_droppers(unlike: FormResult, tmp_path: Path) -> None:
+    write_exudyn(unlike, tmp_path, modes=1)
+    code, said = run(tmp_path)
+    assert code == 0
+    assert said["movement_m"] < 0.1e-6
 
 
 @pytest.mark.parametrize("name", ["plane", "space", "stitched"])
@@ -79,3 +95,31 @@ def test_laws_must_be_converted(plane: FormResult, tmp_path: Path, left_out: str
     (tmp_path / SCRIPT).write_text(script.replace(old, new), encoding="utf-8")
     _, said = run(tmp_path)
     assert said["movement_m"] > {"strain": 1e-5, "bending": 0.3e-6}[left_out]
+
+
+def frequencies(folder: Path, count: int) -> FloatArray:
+    """Return natural frequencies by the written matrices, with wires that stick to their rollers."""
+    matrices: list[Any] = [load_npz(folder / f"{name}.npz") for name in ("mass", "stiffness", "constraints")]
+    M, K, C = matrices
+    nodes = json.loads((folder / "model.json").read_text(encoding="utf-8"))["counts"]["nodes"]
+    kept = slice(0, 6 * nodes)
+    free = null_space(C.toarray()[:, kept])
+    stiffness, mass = (free.T @ (matrix[kept, kept] @ free) for matrix in (K, M))
+    omega = np.sqrt(eigh(stiffness, mass, eigvals_only=True, subset_by_index=[0, count - 1]))
+    return omega / (2.0 * np.pi)
+
+
+@pytest.mark.slow
+def test_natural_frequencies_are_those_of_exudyn(tmp_path: Path) -> None:
+    """Its own tangent stiffness and masses, of what was converted, with constraints eliminated by itself."""
+    line = load_line(EXAMPLE).model_dump()
+    span = {"length": 30.0, "droppers": {"positions": [8.0, 22.0]}}
+    line |= {"spans": [span], "supports": line["supports"][::3]}
+    write_exudyn(solve(Line.model_validate(line), rebuild="none"), tmp_path, modes=1)
+    wanted = frequencies(tmp_path, 20)
+    peer = line_in_exudyn.read(tmp_path, inertia=True)
+    peer.solve(0.0)
+    found = peer.mbs.ComputeODE2Eigenvalues(
+        ignoreAlgebraicEquations=False, convert2Frequencies=True, numberOfEigenvalues=20
+    )[0]
+    np.testing.assert_allclose(np.real(found), wanted, rtol=1e-4)

@@ -65,6 +65,17 @@ def test_small_loads_displace_as_the_matrices_say(frictionless: FormResult) -> N
     np.testing.assert_allclose(mu, wanted[size:], rtol=0.0, atol=1e-3 * np.abs(wanted[size:]).max())
 
 
+def test_rigid_and_slack_droppers(unlike: FormResult) -> None:
+    """A slack dropper just reaches, so that it is taut under the one load and slack under its opposite."""
+    test_it_rests_where_it_was_found(unlike)
+    rest, kind = resting(unlike), Line.model_validate(unlike.inputs).dropper
+    np.testing.assert_array_equal(rest.slack, unlike.droppers.slack)
+    assert rest.slack.any() == (kind.slack == "allowed")
+    assert np.count_nonzero(rest.rigid) == (21 - np.count_nonzero(rest.slack)) * (kind.model == "rigid")
+    if not rest.slack.any():
+        test_small_loads_displace_as_the_matrices_say(unlike)
+
+
 def energy(x: NDArray[Any], arrays: Arrays) -> Any:
     """Return the energy of wires and droppers at coordinates that may be complex, by Gauss's rule."""
     nodes = x.reshape(-1, 6)

@@ -60,6 +60,7 @@ HEAD = "format: 1\ncases:\n  one:\n    "
         ("wind: {speed: 3 m/s, drag: 0}", "wind.drag", "more than 0"),
         ("wind: {speed: 3 m/s, direction: 3 m}", "wind.direction", 'an angle, for example "90 deg"'),
         ("wind: {speed: 3 m/s, on: [masts]}", "wind.on[0]", "wires or droppers"),
+        ("wind: {speed: 3 m/s, on: []}", "wind.on", "a list of 1 or more"),
         ("wind: {velocity: 3 m/s}", "wind.velocity", "the fields speed"),
         ("ice: {}", "ice.messenger_wire", "is needed"),
         ("ice: {contact_wire: 3 N/m}", "ice.messenger_wire", "contact_wire is given"),
@@ -82,6 +83,9 @@ def test_cases_need_names_that_folders_can_have(tmp_path: Path) -> None:
     assert faults(tmp_path, "format: 1\ncases: {}\n")[0][1] == "cases"
     assert "a name of letters" in faults(tmp_path, "format: 1\ncases: {a/b: {}}\n")[0][2]
     assert "a name of letters" in faults(tmp_path, "format: 1\ncases: {..: {}}\n")[0][2]
+    assert "a name of letters" in faults(tmp_path, "format: 1\ncases: {cases.csv: {}}\n")[0][2]
+    twins = faults(tmp_path, "format: 1\ncases: {wind: {}, Wind: {}}\n")
+    assert twins[0][1:] == ("cases.Wind", "a name that differs from wind by more than its case")
     assert faults(tmp_path, "format: 2\ncases: {a: {}}\n")[0][1] == "format"
 
 

@@ -9,6 +9,7 @@ import pytest
 
 from catenaria.errors import InconsistentInputError
 from catenaria.results import replace_folder, require_replaceable
+from catenaria.results.case import LoadStudy
 
 
 def write(folder: Path, text: str) -> None:
@@ -185,3 +186,27 @@ def test_a_place_without_permission_is_refused(run: Path, monkeypatch: pytest.Mo
     for folder in (run, run.parent / "another"):
         with pytest.raises(InconsistentInputError, match="cannot be written"):
             require_replaceable(folder)
+
+
+def result_in(folder: Path, kind: str) -> None:
+    with replace_folder(folder) as new:
+        (new / "result.json").write_text(json.dumps({"format": kind, "result": {}}, indent=1))
+
+
+def test_a_result_of_another_kind_is_not_replaced(tmp_path: Path) -> None:
+    result_in(tmp_path / "run", "catenaria form-finding result")
+    with pytest.raises(InconsistentInputError, match="it holds a catenaria form-finding result"):
+        result_in(tmp_path / "run", "catenaria load cases")
+    with pytest.raises(InconsistentInputError, match="it holds a catenaria form-finding result"):
+        write(tmp_path / "run", "tables without a result")
+    with pytest.raises(InconsistentInputError, match="it holds a catenaria form-finding result"):
+        require_replaceable(tmp_path / "run", LoadStudy)
+    assert "form-finding" in (tmp_path / "run" / "result.json").read_text()
+
+
+def test_a_result_of_the_same_kind_and_tables_are_replaced(run: Path, tmp_path: Path) -> None:
+    require_replaceable(run, LoadStudy)
+    result_in(run, "catenaria load cases")
+    require_replaceable(run, LoadStudy)
+    result_in(run, "catenaria load cases")
+    assert [path.name for path in tmp_path.iterdir() if path.name.startswith(".")] == []

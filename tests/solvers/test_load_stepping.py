@@ -101,6 +101,7 @@ def fold(y0: float) -> Scalar:
 def test_a_fold_ends_it_with_the_part_that_was_reached(y0: float) -> None:
     with pytest.raises(NotConvergedError, match="stuck") as caught:
         solve_by_steps(fold(y0), np.array([y0]))
+    assert str(caught.value).count("Try:") == 1
     reached = caught.value.partial
     assert isinstance(reached, Released)
     part = y0**2 / (1.0 + y0**2)

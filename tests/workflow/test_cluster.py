@@ -6,6 +6,7 @@ import socket
 import sys
 import time
 from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
@@ -124,6 +125,29 @@ def test_a_scheduler_that_does_not_answer_is_refused_in_time(
         ):
             pass
     assert time.perf_counter() - begin < 4.0 * CONNECT
+
+
+def test_another_service_at_the_address_is_refused(tmp_path: Path) -> None:
+    with socket.socket() as server:
+        server.bind(("127.0.0.1", 0))
+        server.listen()
+        server.settimeout(20.0)
+        address = f"tcp://127.0.0.1:{server.getsockname()[1]}"
+
+        def answer() -> None:
+            connection, _ = server.accept()
+            with connection:
+                connection.sendall(b"HTTP/1.1 400 Bad Request\r\n\r\n")
+                while connection.recv(4096):
+                    pass
+
+        with ThreadPoolExecutor(1) as aside:
+            aside.submit(answer)
+            with (
+                pytest.raises(InconsistentInputError, match="what answers there speaks another protocol"),
+                remote_cluster(worker_function(), address, tmp_path),
+            ):
+                pass
 
 
 def test_without_dask_the_error_names_the_extra(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -79,6 +79,7 @@ def test_files(study: LoadStudy, tmp_path: Path) -> None:
     assert not {"hot/blow_off.csv", "hot/pushes.csv", "hot/lateral.png"} & names
     table = rows(tmp_path / "out" / "cases.csv")
     assert [row["case"] for row in table] == ["as built", *CASES]
+    assert all(float(row["temperature_degC"]) - float(row["warming_K"]) == 15.0 for row in table)
     assert float(table[2]["contact_wire_stroke_m"]) > 0.05
     assert table[0]["push_uplift_m"] == ""
     assert float(table[4]["push_uplift_m"]) == pytest.approx(study.cases[3].pushed.uplift[0], abs=1e-5)

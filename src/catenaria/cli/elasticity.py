@@ -136,12 +136,12 @@ def _study(
 
 
 def _with_unit(option: str, text: str, dimension: Dimension) -> float:
-    """Return what an option gives, which in SI would be a number that nobody expects."""
+    """Return in SI what an option gives with a unit; a bare number would be one that nobody means."""
     from catenaria.errors import InconsistentInputError
 
     value = quantity(option, text, dimension)
     if not any(letter.isalpha() for letter in text.lower().replace("e", "")):
-        raise InconsistentInputError(f"{option}: found {text!r}; allowed: a unit behind it, {dimension.example}")
+        raise InconsistentInputError(f"{option}: found {text!r}; allowed: with a unit, {dimension.example!r}")
     return value
 
 

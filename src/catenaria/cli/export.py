@@ -4,13 +4,16 @@ from __future__ import annotations
 
 from enum import StrEnum
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 from rich.console import Console
 
 from catenaria.cli.failures import BAD_INPUT, INTERRUPTED, complain, failures_reported
 from catenaria.cli.lengths import positive_length
+
+if TYPE_CHECKING:
+    from catenaria.workflow.export import ExportFormat
 
 
 class Format(StrEnum):
@@ -73,7 +76,7 @@ def export(
         options = workflow.ExportOptions(positive_length("--step", step), modes)
         found = results.load_result(result)
         everything = Format.ALL in formats
-        named = tuple(name for name in workflow.FORMATS if Format(name) in formats)
+        named: list[ExportFormat] = [name for name in workflow.FORMATS if Format(name) in formats]
         chosen = workflow.formats_of(found) if everything else named
         place = _beside(result, formats) if out is None else out
         try:

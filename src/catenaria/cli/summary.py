@@ -12,6 +12,7 @@ from rich.table import Table
 from catenaria.cli.space_lines import space_lines
 
 if TYPE_CHECKING:
+    from catenaria.line import Line
     from catenaria.results import Counters, FormResult
 
 _MOST_ROWS = 24
@@ -20,6 +21,8 @@ _HELD = {"contact wire": "contact", "second contact wire": "second", "auxiliary 
 
 def show_result(result: FormResult, console: Console) -> None:
     """Print the result in short: droppers, wires, largest errors and counters."""
+    from catenaria.line import Line
+
     console.print(_dropper_table(result))
     hidden = len(result.droppers.x) - _MOST_ROWS
     if hidden > 0:
@@ -28,21 +31,23 @@ def show_result(result: FormResult, console: Console) -> None:
     hidden = len(result.wires) - _MOST_ROWS
     if hidden > 0:
         console.print(f"  ... and {hidden} more in wires.csv\n")
-    for line in (
+    line = Line.model_validate(result.inputs)
+    console.print(f"Unstressed lengths are those at {line.reference_temperature:g} °C.", soft_wrap=True)
+    for text in (
         *space_lines(result),
         *_error_lines(result),
         *_counter_lines(result),
         *result.audit.lines(),
         *result.rebuilt.lines(),
-        *_cautions(result),
+        *_cautions(line, result),
     ):
-        console.print(line, soft_wrap=True)
+        console.print(text, soft_wrap=True)
 
 
-def _cautions(result: FormResult) -> tuple[str, ...]:
-    from catenaria.line import Line, mesh_caution
+def _cautions(line: Line, result: FormResult) -> tuple[str, ...]:
+    from catenaria.line import mesh_caution
 
-    caution = mesh_caution(Line.model_validate(result.inputs))
+    caution = mesh_caution(line)
     return () if caution is None or result.physics != "bending" else (caution,)
 
 

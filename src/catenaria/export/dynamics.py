@@ -77,7 +77,7 @@ def dynamics_model(rest: RestingLine, found: Vibrations) -> dict[str, Any]:
             "sliding_coordinates": rest.coordinates.size - 6 * nodes,
             "coordinates": rest.coordinates.size,
             "constraints": rest.multipliers.size,
-            "droppers": rest.elastic.size,
+            "droppers": rest.slack.size,
         },
         "residual_at_rest": {"force": force, "constraint": constraint},
         "wires": _wires(rest),
@@ -161,6 +161,7 @@ def _dropper_arrays(rest: RestingLine) -> dict[str, NDArray[Any]]:
         "dropper_length": z[model.length],
         "dropper_flexibility": droppers.flexibility,
         "dropper_force": z[model.density] * rest.dropper_reach,
+        "dropper_slack": rest.slack,
         "dropper_span": rest.result.droppers.span,
         "dropper_number": rest.result.droppers.number,
     }

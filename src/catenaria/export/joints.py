@@ -112,7 +112,7 @@ def _roots(rest: RestingLine) -> Iterator[Joint]:
 
 
 def _rigid_droppers(rest: RestingLine) -> Iterator[Joint]:
-    for i in np.flatnonzero(~rest.elastic).tolist():
+    for i in np.flatnonzero(rest.rigid).tolist():
         row = rest.rows(rest.model.density[[i]])
         yield {"kind": "rigid dropper", "rows": _listed(row), "dropper": i}
 

@@ -240,6 +240,8 @@ class LineInExudyn:
     def _dropper(self, i: int) -> None:
         """Add a dropper, unless it is slack."""
         arrays = self.arrays
+        if arrays["dropper_slack"][i]:
+            return
         length, force = arrays["dropper_length"][i], arrays["dropper_force"][i]
         ends = [(arrays[f"dropper_{end}_wire"][i], arrays[f"dropper_{end}_coordinate"][i]) for end in ENDS]
         markers = [self.point(int(wire), float(s)) for wire, s in ends]
@@ -249,7 +251,7 @@ class LineInExudyn:
         if flexibility == 0.0:
             bar = self.item.DistanceConstraint(markerNumbers=markers, distance=length)
             self._connect(bar, np.array([-force]))
-        elif force > 0.0:
+        else:
             piece = Engineering.at(np.array(1.0 / flexibility), force)
             own = float(piece.shorter * length)
             spring = self.item.SpringDamper(

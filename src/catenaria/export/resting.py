@@ -32,6 +32,8 @@ from catenaria.results import FormResult
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 
+_NOTHING = 1e-6  # N
+
 
 @dataclass(frozen=True)
 class RestingLine:
@@ -91,15 +93,25 @@ class RestingLine:
         return np.concatenate((nodes, self.model.hold_s[self.running]))
 
     @cached_property
-    def elastic(self) -> NDArray[np.bool_]:
-        """Which droppers are springs, shape (n_droppers,); rigid ones are constraints."""
-        return self.model.layout.droppers.flexibility > 0.0
+    def slack(self) -> NDArray[np.bool_]:
+        """Which droppers carry nothing, shape (n_droppers,); as far as matrices go, they are not there."""
+        return self.z[self.model.density] * self.dropper_reach < _NOTHING
+
+    @cached_property
+    def springs(self) -> NDArray[np.bool_]:
+        """Which droppers are springs, shape (n_droppers,)."""
+        return ~self.slack & (self.model.layout.droppers.flexibility > 0.0)
+
+    @cached_property
+    def rigid(self) -> NDArray[np.bool_]:
+        """Which droppers are constraints, shape (n_droppers,)."""
+        return ~self.slack & ~self.springs
 
     @cached_property
     def multipliers(self) -> IntArray:
         """Unknowns that are forces of constraints, in the order of their numbers in the system."""
         every = np.flatnonzero(self.model.unknowns.where(Kind.MULTIPLIER))
-        return np.setdiff1d(every, self.model.density[self.elastic])
+        return np.setdiff1d(every, self.model.density[~self.rigid])
 
     @cached_property
     def lumps(self) -> Lumps:
@@ -116,7 +128,7 @@ class RestingLine:
     def tangent(self) -> Tangent:
         """The linearised equations."""
         jacobian = self.system.jacobian(State.at_rest(self.z))
-        springs = self.model.density[self.elastic]
+        springs = self.model.density[self.springs]
         return tangent(
             jacobian, self._mass(), self.coordinates, self.multipliers, springs, 1.0 / self.bar_length
         )
@@ -126,7 +138,7 @@ class RestingLine:
         """Lengths of arms and rigid droppers [m], whose unknowns are N/m, and 1 for other constraints."""
         model, length = self.model, np.ones(self.multipliers.size)
         length[self.rows(model.arm_density)] = model.layout.holds.arm_length[model.layout.holds.hinged]
-        length[self.rows(model.density[~self.elastic])] = self.dropper_reach[~self.elastic]
+        length[self.rows(model.density[self.rigid])] = self.dropper_reach[self.rigid]
         return length
 
     @cached_property
@@ -137,7 +149,7 @@ class RestingLine:
     @cached_property
     def dropper_reach(self) -> FloatArray:
         """Distances between the clamps of droppers [m]."""
-        return _spans(self.model, self.z)
+        return _distances(self.model, self.z)
 
     @cached_property
     def load(self) -> FloatArray:
@@ -173,7 +185,7 @@ class RestingLine:
 def _with_dead_weights(model: SpatialModel) -> SpatialModel:
     """Return the line with half of each dropper's weight in either clamp, as it is in the model's start."""
     droppers = model.layout.droppers
-    half = 0.5 * droppers.rhoA * _spans(model, model.unknowns.start)
+    half = 0.5 * droppers.rhoA * _distances(model, model.unknowns.start)
     dead: LaidDroppers = replace(
         droppers,
         rhoA=np.zeros_like(half),
@@ -183,7 +195,7 @@ def _with_dead_weights(model: SpatialModel) -> SpatialModel:
     return replace(model, layout=replace(model.layout, droppers=dead))
 
 
-def _spans(model: SpatialModel, z: FloatArray) -> FloatArray:
+def _distances(model: SpatialModel, z: FloatArray) -> FloatArray:
     below = model.lower_carrier.evaluate(z, z[model.lower_s]).r
     above = model.upper_carrier.evaluate(z, z[model.upper_s]).r
     return np.linalg.norm(above - below, axis=1)

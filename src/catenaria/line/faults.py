@@ -22,6 +22,7 @@ _PLAIN: Final = {
     "greater_than_equal": "{ge:g} or more",
     "less_than_equal": "{le:g} or less",
     "tuple_type": "a list",
+    "too_short": "a list of {min_length} or more",
     "dict_type": "a mapping",
 }
 

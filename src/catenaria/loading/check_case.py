@@ -69,7 +69,8 @@ def _support(moved: MovedSupport, result: FormResult, i: int) -> Iterator[Proble
     supports, place = result.supports, ("moved_supports", i)
     held = [wire for name, wire in zip(supports.support, supports.wire, strict=True) if name == moved.support]
     if not held:
-        names = list(dict.fromkeys(supports.support[i] for i in np.argsort(supports.chainage, kind="stable")))
+        order: list[int] = np.argsort(supports.chainage, kind="stable").tolist()
+        names = list(dict.fromkeys(supports.support[i] for i in order))
         yield Problem((*place, "support"), moved.support, f"{_listed(names)}{closest(moved.support, names)}")
     elif moved.wire is not None and moved.wire not in held:
         yield Problem((*place, "wire"), moved.wire, f"a wire that it holds: {', '.join(held)}")

@@ -32,6 +32,7 @@ def _case_row(study: LoadStudy, case: CaseResult | None) -> dict[str, str | floa
     row: dict[str, str | float] = {
         "case": "as built" if case is None else case.name,
         "warming_K": 0.0 if case is None else case.warming,
+        "temperature_degC": study.reference_temperature + (0.0 if case is None else case.warming),
         "lowest_contact_wire_m": float(heights.min()),
         "highest_contact_wire_m": float(heights.max()),
         "largest_lateral_m": furthest,

@@ -176,8 +176,10 @@ def remote_cluster(function: Callable[[T], R], scheduler: str, shared: Path) -> 
             with ThreadPoolExecutor(1) as aside:  # for the caller may have an event loop of its own
                 aside.submit(asyncio.run, _greet(distributed, scheduler)).result()
             client = distributed.Client(scheduler, timeout=CONNECT, set_as_default=False)
-        except (OSError, ValueError, TypeError) as error:
+        except (OSError, ValueError, TypeError, MemoryError) as error:
             reason = str(error) or "it is silent"
+            if isinstance(error, MemoryError):  # the first bytes are read as the length of a message
+                reason = "what answers there speaks another protocol"
             raise InconsistentInputError(
                 f"the scheduler {scheduler} does not answer: {reason}. Nothing was solved. Try: "
                 "tcp://HOST:PORT as `dask scheduler` prints it when it starts"

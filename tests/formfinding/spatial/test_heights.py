@@ -179,8 +179,8 @@ def test_a_line_on_a_gradient_follows_the_track(make: Make, find: Find, strings:
 
 
 def kinked(rounding: float) -> Change:
-    """Return a track whose slope changes by 6 mm/m at the middle dropper of the first span: 90 N of 15 kN."""
-    return {"track": {"gradients": [{"start": 30.0, "slope": 0.006, "rounding": rounding}]}}
+    """Return a track whose slope changes by 12 mm/m at the first span's middle dropper: 180 N of 15 kN."""
+    return {"track": {"gradients": [{"start": 30.0, "slope": 0.012, "rounding": rounding}]}}
 
 
 def test_droppers_that_push_at_a_change_of_slope_are_refused_with_a_vertical_curve_as_advice(
