@@ -128,7 +128,7 @@ def lines(draw: st.DrawFn, built: bool = False) -> Line:
     free = {"messenger_wire": {"height": level + round(sag + draw(thousandths(0.2, 1.2)), 3)}}
     held = free | {"contact_wire": {"height": level}}
     inner = [held if draw(st.booleans()) else free for _ in laid[1:]]
-    upright = built
+    upright = built or messenger["force"] < 8_000
     joint = "guided" if upright else draw(st.sampled_from(["guided", "frictionless"]))
     return Line.model_validate(
         {

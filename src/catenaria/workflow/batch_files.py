@@ -91,6 +91,10 @@ def _matches(pattern: str, out: Path) -> Iterator[Path]:
         above = _fixed_part(path)
         matched = above.glob(path.relative_to(above).as_posix())
         found = [file for file in matched if file.is_file() and not file.resolve().is_relative_to(out)]
+    if not found and path.resolve().is_relative_to(out):
+        raise InconsistentInputError(
+            f"{pattern} lies in the folder of results {out}, where no line files are looked for. Name another"
+        )
     if not found:
         raise InconsistentInputError(f"{pattern}: there is no such line file. Name files, folders or globs")
     yield from found
