@@ -84,3 +84,8 @@ def test_results_are_not_taken_for_lines(find: Find, tmp_path: Path) -> None:
 def test_what_matches_nothing_is_refused(find: Find, pattern: str) -> None:
     with pytest.raises(InconsistentInputError, match="there is no such line file"):
         find(("net/a.yaml",), "net", pattern)
+
+
+def test_lines_in_the_folder_of_results_are_not_said_to_be_missing(find: Find) -> None:
+    with pytest.raises(InconsistentInputError, match=r"net lies in the folder of results .*Name another"):
+        find(("net/a.yaml",), "net", out="net")

@@ -20,7 +20,8 @@ if TYPE_CHECKING:
 def compare(
     line: Annotated[Path, typer.Argument(metavar="LINE", help="Line file, YAML or JSON.")],
     methods: Annotated[
-        str | None, typer.Option(help="Names of methods with commas between.", show_default="all that solve the line")
+        str | None,
+        typer.Option(help="Names of methods with commas between.", show_default="all that solve the line"),
     ] = None,
     out: Annotated[
         Path | None,

@@ -57,8 +57,8 @@ class Gradient(LineModel):
     rounding: NonNegativeLength = Field(
         default=0.0,
         description=(
-            "Length of the parabola, half of it before `start`, over which the slope before becomes this one. "
-            "Droppers near a sharp change of slope would have to push the contact wire down."
+            "Length of the parabola, half of it before `start`, over which the slope before becomes this "
+            "one. Droppers near a sharp change of slope would have to push the contact wire down."
         ),
     )
 

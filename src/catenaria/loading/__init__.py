@@ -1,1 +1,1 @@
-"""After form-finding: what a found line does under loads, with errors of its installation, and as measured."""
+"""After form-finding: a found line under loads, with errors of its installation, and as measured."""

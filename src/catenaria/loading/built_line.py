@@ -1,4 +1,4 @@
-"""A found line after it was built: all unstressed lengths are kept, and tensioning devices follow the loads."""
+"""A found line after it was built: unstressed lengths are kept, and tensioning devices follow the loads."""
 
 from __future__ import annotations
 

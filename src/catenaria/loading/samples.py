@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from concurrent.futures import FIRST_COMPLETED, Future, wait
 from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass
-from multiprocessing import get_context
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,13 +16,14 @@ from catenaria.line.installation import Installation
 from catenaria.loading.built_line import BuiltLine
 from catenaria.loading.errors_of_installation import error_sources
 from catenaria.loading.installed import InstalledLine
+from catenaria.loading.processes import deaf_start, process_pool
 from catenaria.results.form import FormResult
 
 FloatArray = NDArray[np.float64]
 
 Tell = Callable[[int, int], None]  # how many samples are done, of how many
 
-_MOST_A_TASK = 512  # samples that one task solves, after some milliseconds to set up the line
+_MOST_A_TASK = 128  # samples that one task solves, after setting up the line; Ctrl-C waits for some tasks
 _TASKS_A_WORKER = 8
 _ADVICE = (
     "fewer workers if memory is short; in a script of your own, calls with several workers stand below "
@@ -97,17 +97,17 @@ def _run(tasks: list[Task], workers: int) -> Iterator[tuple[int, FloatArray]]:
     if workers == 1 or len(tasks) == 1:
         yield from ((task.first, task.run()) for task in tasks)
         return
-    # Processes that are spawned inherit no threads of this one, which forked ones would.
-    with ProcessPoolExecutor(workers, mp_context=get_context("spawn")) as pool:
-        waiting: dict[Future[FloatArray], int] = {pool.submit(task.run): task.first for task in tasks}
-        try:
-            while waiting:
-                for future in wait(waiting, return_when=FIRST_COMPLETED).done:
-                    yield waiting.pop(future), future.result()
-        except BrokenProcessPool as error:
-            raise NotConvergedError("A worker process has ended before its work was done", _ADVICE) from error
-        finally:
-            pool.shutdown(wait=False, cancel_futures=True)
+    pool = process_pool(workers)
+    try:
+        with deaf_start():
+            waiting: dict[Future[FloatArray], int] = {pool.submit(task.run): task.first for task in tasks}
+        while waiting:
+            for future in wait(waiting, return_when=FIRST_COMPLETED).done:
+                yield waiting.pop(future), future.result()
+    except BrokenProcessPool as error:
+        raise NotConvergedError("A worker process has ended before its work was done", _ADVICE) from error
+    finally:  # not by `with`, whose shutdown would take back that what has not begun is cancelled
+        pool.shutdown(cancel_futures=True)
 
 
 def _outputs(installed: InstalledLine, p: FloatArray) -> FloatArray:

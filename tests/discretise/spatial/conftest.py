@@ -130,7 +130,9 @@ def holds(rows: Sequence[Hold], alignment: Alignment) -> Holds:
 
 
 def droppers(rows: Sequence[Dropper], frame: Frames) -> LaidDroppers:
-    values = {field.name: column(rows, field.name) for field in fields(Dropper) if field.name != "chainage"}
+    values: dict[str, Any] = {
+        field.name: column(rows, field.name) for field in fields(Dropper) if field.name != "chainage"
+    }
     count = len(rows)
     return LaidDroppers(**values, span=np.ones(count, np.int64), number=1 + np.arange(count), frame=frame)
 
