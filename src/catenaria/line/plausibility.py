@@ -25,7 +25,8 @@ if TYPE_CHECKING:
 _ROOM: Final = 0.2  # m from a wanted height up to the line between the messenger's supports
 _FARTHEST: Final = 0.5  # m from the line between the contact wire's supports to a wanted height
 _LIFTED: Final = 1.5  # m between the heights of the contact wire at neighbouring supports that hold it
-_TALLEST: Final = 20.0  # m from the rails to a contact wire, and from there to a messenger wire's support
+_TALLEST: Final = 20.0  # m from the rails to a contact wire
+_DEEPEST: Final = 200.0  # m from a contact wire to the support of its messenger wire
 _ROUNDING: Final = 1e-9  # m
 _STRAIN: Final = (1e-5, 0.02)  # T/EA; about 1e-3 in wires that are built
 
@@ -156,9 +157,9 @@ def _far_up(line: Line) -> Iterator[Problem]:
         if support.contact_wire is not None and abs(support.contact_wire.height) > _TALLEST:
             path: Path = ("supports", i, "contact_wire", "height")
             yield Problem(path, support.contact_wire.height, f"within {_TALLEST:g} m of the rails, as 5.3 m")
-        elif support.messenger_height - level > _TALLEST + _ROUNDING:
+        elif support.messenger_height - level > _DEEPEST + _ROUNDING:
             field = "height" if support.messenger_wire.encumbrance is None else "encumbrance"
-            allowed = f"at most {_TALLEST:g} m above the contact wire, which is at {level:g} m there"
+            allowed = f"at most {_DEEPEST:g} m above the contact wire, which is at {level:g} m there"
             found = getattr(support.messenger_wire, field)
             yield Problem(("supports", i, "messenger_wire", field), found, allowed)
 
