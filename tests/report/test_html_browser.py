@@ -4,17 +4,18 @@ from __future__ import annotations
 
 import shutil
 from collections.abc import Generator
+from importlib import import_module
 from pathlib import Path
+from typing import Any
 
 import pytest
-from playwright.sync_api import Browser, Page, sync_playwright
 
 CHROMIUM = shutil.which("chromium") or shutil.which("google-chrome") or ""
 
 
 @pytest.fixture(scope="module")
-def browser() -> Generator[Browser]:
-    with sync_playwright() as playwright:
+def browser() -> Generator[Any]:
+    with import_module("playwright.sync_api").sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
         yield browser
         browser.close()
@@ -30,7 +31,7 @@ def file(curve_page: str, tmp_path_factory: pytest.TempPathFactory) -> Path:
 class Watched:
     """A page of the browser, what it complained of, and what it asked for."""
 
-    def __init__(self, browser: Browser, file: Path, width: int, scheme: str) -> None:
+    def __init__(self, browser: Any, file: Path, width: int, scheme: str) -> None:
         self.said: list[str] = []
         self.asked: list[str] = []
         context = browser.new_context(
@@ -38,7 +39,7 @@ class Watched:
             color_scheme="dark" if scheme == "dark" else "light",
             offline=True,
         )
-        self.page: Page = context.new_page()
+        self.page: Any = context.new_page()
         self.page.on("console", lambda message: self.said.append(message.text))
         self.page.on("pageerror", lambda error: self.said.append(str(error)))
         self.page.on("request", lambda request: self.asked.append(request.url))
@@ -53,7 +54,7 @@ class Watched:
 @pytest.mark.parametrize(
     ("width", "scheme"), [(1400, "light"), (1400, "dark"), (360, "light"), (360, "dark")]
 )
-def test_it_opens_without_errors(browser: Browser, file: Path, width: int, scheme: str) -> None:
+def test_it_opens_without_errors(browser: Any, file: Path, width: int, scheme: str) -> None:
     watched = Watched(browser, file, width, scheme)
     assert watched.said == []
     assert [url for url in watched.asked if not url.startswith(("file:", "data:", "blob:"))] == []
@@ -66,7 +67,7 @@ def test_it_opens_without_errors(browser: Browser, file: Path, width: int, schem
     watched.page.close()
 
 
-def test_an_error_would_be_noticed(browser: Browser, file: Path, tmp_path: Path) -> None:
+def test_an_error_would_be_noticed(browser: Any, file: Path, tmp_path: Path) -> None:
     broken = tmp_path / "broken.html"
     text = file.read_text(encoding="utf-8").replace("const drawAll = ", "nowhere(); const drawAll = ")
     broken.write_text(text.replace("default-src 'none'", "default-src 'self'"), encoding="utf-8")
@@ -78,7 +79,7 @@ def test_an_error_would_be_noticed(browser: Browser, file: Path, tmp_path: Path)
     page.close()
 
 
-def test_light_and_dark_differ_down_to_the_figures(browser: Browser, file: Path) -> None:
+def test_light_and_dark_differ_down_to_the_figures(browser: Any, file: Path) -> None:
     light, dark = (Watched(browser, file, 1200, scheme) for scheme in ("light", "dark"))
     stroke = "#profile-1 .scatterlayer .trace path.js-line"
     for of, name in (
@@ -95,7 +96,7 @@ def test_light_and_dark_differ_down_to_the_figures(browser: Browser, file: Path)
     dark.page.close()
 
 
-def test_pointing_says_chainage_height_and_force(browser: Browser, file: Path) -> None:
+def test_pointing_says_chainage_height_and_force(browser: Any, file: Path) -> None:
     watched = Watched(browser, file, 1200, "light")
     place = watched.page.locator("#profile-1 .nsewdrag").first
     place.scroll_into_view_if_needed()
@@ -114,7 +115,7 @@ def test_pointing_says_chainage_height_and_force(browser: Browser, file: Path) -
     watched.page.close()
 
 
-def test_no_button_sends_anything(browser: Browser, file: Path) -> None:
+def test_no_button_sends_anything(browser: Any, file: Path) -> None:
     watched = Watched(browser, file, 1200, "light")
     buttons = watched.page.locator("#profile-1 .modebar-btn")
     titles = [buttons.nth(i).get_attribute("data-title") for i in range(buttons.count())]
@@ -126,7 +127,7 @@ def test_no_button_sends_anything(browser: Browser, file: Path) -> None:
     watched.page.close()
 
 
-def test_on_paper_nothing_is_folded(browser: Browser, file: Path) -> None:
+def test_on_paper_nothing_is_folded(browser: Any, file: Path) -> None:
     watched = Watched(browser, file, 1200, "dark")
     closed = "document.querySelectorAll('details:not([open])').length"
     before = watched.page.evaluate(closed)
