@@ -5,7 +5,22 @@ All of them derive from `CatenariaError`; each message says what is wrong, where
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+
+_MOST_NAMES = 8
+
+
+def some(names: Sequence[str]) -> str:
+    """Return names for a message, not too many of them.
+
+    Examples
+    --------
+    >>> some(["a", "b"]), some([str(i) for i in range(10)])
+    ('a; b', '0; 1; 2; 3; 4; 5; 6; 7; and 2 more')
+    """
+    more = len(names) - _MOST_NAMES
+    return "; ".join(names[:_MOST_NAMES]) + (f"; and {more} more" if more > 0 else "")
 
 
 class CatenariaError(Exception):

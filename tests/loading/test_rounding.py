@@ -12,7 +12,8 @@ from catenaria.errors import InconsistentInputError
 from catenaria.formfinding.direct import Direct
 from catenaria.line import Line, load_line
 from catenaria.loading.built_line import BuiltLine
-from catenaria.loading.rounding import round_droppers, rounded_half_up
+from catenaria.loading.rounding import round_droppers
+from catenaria.numerics.rounding import rounded_half_up
 from catenaria.results import FormResult, load_result, save_result
 from catenaria.results.rounding import RoundingStudy
 

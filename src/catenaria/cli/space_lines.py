@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from catenaria.errors import some
+
 if TYPE_CHECKING:
     from catenaria.results import Droppers, FormResult
-
-_MOST_NAMES = 8
 
 
 def space_lines(result: FormResult) -> list[str]:
@@ -38,14 +38,14 @@ def _arm_lines(result: FormResult) -> list[str]:
         named = (f"{arms.support[k]} {arms.radial[k]:.1f} N ({arms.registration[k]})" for k in wrong)
         lines.append(
             "Caution: steady arms that do not bear what they are for, or less radial force than is wanted "
-            f"(tension positive): {_some(list(named))}."
+            f"(tension positive): {some(list(named))}."
         )
     pushed = np.flatnonzero(arms.enough & (arms.radial < 0.0))
     if pushed.size:
         named = (f"{arms.support[k]} {arms.radial[k]:.1f} N ({arms.registration[k]})" for k in pushed)
         lines.append(
             "Caution: steady arms in compression, although hinged arms are built for tension; `side` says "
-            f"where the hinge is: {_some(list(named))}."
+            f"where the hinge is: {some(list(named))}."
         )
     return lines
 
@@ -59,15 +59,9 @@ def _dropper_lines(droppers: Droppers) -> list[str]:
     slack = np.flatnonzero(droppers.slack)
     if slack.size:
         named = [_name(droppers, int(k)) for k in slack]
-        lines.append(f"Caution: {slack.size} slack droppers, which lift nothing: {_some(named)}.")
+        lines.append(f"Caution: {slack.size} slack droppers, which lift nothing: {some(named)}.")
     return lines
 
 
 def _name(droppers: Droppers, i: int) -> str:
     return f"span {droppers.span[i]}, dropper {droppers.number[i]} of the {droppers.lower_wire[i]}"
-
-
-def _some(names: list[str]) -> str:
-    """Join names, not too many."""
-    more = len(names) - _MOST_NAMES
-    return "; ".join(names[:_MOST_NAMES]) + (f"; and {more} more" if more > 0 else "")

@@ -8,13 +8,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from catenaria.errors import InconsistentInputError
+from catenaria.numerics.rounding import rounded_half_up
 from catenaria.report.columns import Columns
 from catenaria.report.tables import write_csv
 from catenaria.results import FormResult
 
 FloatArray = NDArray[np.float64]
-
-_DIGITS = 6  # of length by step: what is half a step within rounding errors is half a step
 
 
 def rounded_lengths(length: FloatArray, step: float) -> FloatArray:
@@ -32,7 +31,7 @@ def rounded_lengths(length: FloatArray, step: float) -> FloatArray:
     """
     if not step > 0.0:
         raise InconsistentInputError(f"dropper lengths are rounded to a step above 0 m, not to {step:g} m")
-    rounded = np.round(step * np.floor(np.round(length / step, _DIGITS) + 0.5), 12)
+    rounded = rounded_half_up(length, step)
     if length.size and not rounded.min() > 0.0:
         raise InconsistentInputError(
             f"rounded to {step:g} m, nothing is left of a dropper that is cut to {length.min():.4g} m"

@@ -6,6 +6,7 @@ from catenaria.results.audit import NOT_AUDITED, Audit
 from catenaria.results.folder import (
     MANIFEST_NAME,
     clear_interrupted,
+    files_of,
     has_manifest,
     is_intact,
     replace_folder,
@@ -60,6 +61,7 @@ __all__ = [
     "Ties",
     "WireForm",
     "clear_interrupted",
+    "files_of",
     "has_manifest",
     "is_intact",
     "load_result",

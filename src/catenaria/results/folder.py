@@ -213,9 +213,14 @@ def _read_manifest(folder: Path) -> dict[str, Any] | None:
     return cast(dict[str, Any], files) if isinstance(files, dict) else None
 
 
+def files_of(folder: str | os.PathLike[str]) -> tuple[Path, ...]:
+    """Return the files of a folder and of the folders in it, in order, without its manifest."""
+    files = sorted(path for path in Path(folder).rglob("*") if path.is_file())
+    return tuple(path for path in files if path != Path(folder) / MANIFEST_NAME)
+
+
 def _write_manifest(folder: Path) -> None:
-    files = sorted(path for path in folder.rglob("*") if path.is_file())
-    digests = {path.relative_to(folder).as_posix(): _digest(path) for path in files}
+    digests = {path.relative_to(folder).as_posix(): _digest(path) for path in files_of(folder)}
     text = json.dumps({"format": _FORMAT, "files": digests}, indent=1, ensure_ascii=False)
     (folder / MANIFEST_NAME).write_text(text + "\n", encoding="utf-8")
 

@@ -12,7 +12,7 @@ from catenaria.loading import adjust as adjusting
 from catenaria.loading.adjustment_limits import AdjustmentLimits
 from catenaria.loading.built_line import BuiltLine
 from catenaria.report.adjustment_tables import write_adjustment_tables
-from catenaria.results import FormResult, load_result, replace_folder, save_result
+from catenaria.results import FormResult, files_of, load_result, replace_folder, save_result
 from catenaria.results.adjustment import Adjustment
 
 
@@ -85,5 +85,4 @@ def write_adjustment(
             from catenaria.report import adjustment_figure, style  # slow to import
 
             style.save(adjustment_figure.adjustment_figure(study), new / "adjust.png")
-        names = sorted(path.relative_to(new) for path in new.rglob("*") if path.is_file())
-    return tuple(Path(folder) / name for name in names)
+    return files_of(folder)

@@ -13,7 +13,7 @@ from catenaria.errors import CatenariaError, UnsupportedError
 from catenaria.line import Line, load_line, refuse_for_method
 from catenaria.mechanics.kernels.warm_up import warm_up
 from catenaria.report.differences import Differences, differences, write_differences
-from catenaria.results import replace_folder
+from catenaria.results import files_of, replace_folder
 from catenaria.results.form import FormResult
 from catenaria.workflow.methods import METHODS, NEGLECTS, SPATIAL
 
@@ -168,5 +168,4 @@ def write_comparison(
             name = reference.result.name if reference.result else ""
             figure = differences_figure(name, reference.method, found)
             style.save(figure, new / "differences.png")
-        names = sorted(path.relative_to(new) for path in new.rglob("*") if path.is_file())
-    return tuple(Path(folder) / name for name in names)
+    return files_of(folder)

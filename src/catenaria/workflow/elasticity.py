@@ -10,9 +10,9 @@ from catenaria.line import Line
 from catenaria.loading.built_line import BuiltLine
 from catenaria.loading.elasticity import Wanted, elasticity_of
 from catenaria.report.elasticity_tables import write_elasticity_tables
-from catenaria.results import FormResult, replace_folder, save_result
+from catenaria.results import FormResult, files_of, replace_folder, save_result
 from catenaria.results.elasticity import ElasticityStudy
-from catenaria.workflow.tolerance import found
+from catenaria.workflow.found import found
 
 ElasticityListener = Callable[[str, int, int], None]
 
@@ -104,5 +104,4 @@ def write_elasticity(
             from catenaria.report import elasticity_figure, style  # slow to import
 
             style.save(elasticity_figure.elasticity_figure(study), new / "elasticity.png")
-        names = sorted(path.relative_to(new) for path in new.rglob("*") if path.is_file())
-    return tuple(Path(folder) / name for name in names)
+    return files_of(folder)

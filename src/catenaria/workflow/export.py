@@ -18,7 +18,7 @@ from catenaria.export.tables_json import write_tables_json
 from catenaria.export.tables_schema import tables_schema
 from catenaria.export.vtk import write_vtu
 from catenaria.export.xlsx import write_xlsx
-from catenaria.results import FormResult, load_result, replace_folder
+from catenaria.results import FormResult, files_of, load_result, replace_folder
 
 __all__ = ["FORMATS", "ExportFormat", "ExportOptions", "export", "formats_of", "tables_schema"]
 
@@ -120,8 +120,7 @@ def export(
                 write(result, new / file, options)
             else:
                 _SEVERAL[name](result, new, options)
-        names = sorted(path.relative_to(new) for path in new.rglob("*") if path.is_file())
-    return tuple(out / name for name in names)
+    return files_of(out)
 
 
 def _is_file(formats: Sequence[ExportFormat], out: Path) -> bool:

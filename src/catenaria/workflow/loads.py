@@ -15,9 +15,9 @@ from catenaria.loading.case import solve_case
 from catenaria.loading.check_case import check_cases
 from catenaria.loading.read_case import line_state
 from catenaria.report.case_tables import write_case_tables
-from catenaria.results import FormResult, replace_folder, save_result
+from catenaria.results import FormResult, files_of, replace_folder, save_result
 from catenaria.results.case import CaseResult, LoadStudy
-from catenaria.workflow.tolerance import found
+from catenaria.workflow.found import found
 
 CaseListener = Callable[[str, int, int], None]
 
@@ -102,5 +102,4 @@ def write_loads(study: LoadStudy, folder: str | os.PathLike[str], figures: bool 
             from catenaria.report.case_figures import write_case_figures  # slow to import
 
             write_case_figures(study, new)
-        names = sorted(path.relative_to(new) for path in new.rglob("*") if path.is_file())
-    return tuple(Path(folder) / name for name in names)
+    return files_of(folder)

@@ -9,9 +9,9 @@ from pathlib import Path
 from catenaria.line import Line
 from catenaria.loading.rounding import round_droppers
 from catenaria.report.tolerance_tables import write_rounding_tables
-from catenaria.results import FormResult, replace_folder, save_result
+from catenaria.results import FormResult, files_of, replace_folder, save_result
 from catenaria.results.rounding import RoundingStudy
-from catenaria.workflow.tolerance import found
+from catenaria.workflow.found import found
 
 
 def rounding(source: FormResult | Line | str | os.PathLike[str], steps: Sequence[float]) -> RoundingStudy:
@@ -60,5 +60,4 @@ def write_rounding(
             from catenaria.report import style, tolerance_figures  # slow to import
 
             style.save(tolerance_figures.rounding_figure(study), new / "rounding.png")
-        names = sorted(path.relative_to(new) for path in new.rglob("*") if path.is_file())
-    return tuple(Path(folder) / name for name in names)
+    return files_of(folder)

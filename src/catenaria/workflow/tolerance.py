@@ -5,18 +5,16 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-from catenaria.line import Line, load_line
+from catenaria.line import Line
 from catenaria.line.installation import Installation, usual_installation
 from catenaria.line.load_installation import load_installation
 from catenaria.loading.samples import Tell
 from catenaria.loading.tolerance import Options, study_tolerances, with_seed
 from catenaria.mechanics.kernels.warm_up import warm_up
 from catenaria.report.tolerance_tables import write_tolerance_tables
-from catenaria.results import FormResult, load_result, replace_folder, save_result
+from catenaria.results import FormResult, files_of, replace_folder, save_result
 from catenaria.results.tolerance import ToleranceStudy
-from catenaria.workflow.solve import solve
-
-RESULT_NAME = "result.json"
+from catenaria.workflow.found import found
 
 
 def tolerances(
@@ -60,20 +58,6 @@ def tolerances(
     return study_tolerances(line, result, with_seed(errors, seed), options or Options(), progress)
 
 
-def found(source: FormResult | Line | str | os.PathLike[str]) -> tuple[Line, FormResult]:
-    """Return a line and where it was found, from a result, its folder, a line or a line file."""
-    if isinstance(source, FormResult):
-        return Line.model_validate(source.inputs), source
-    if isinstance(source, Line):
-        return source, solve(source)
-    path = Path(source)
-    if path.is_dir() or path.name == RESULT_NAME:
-        result = load_result(path)
-        return Line.model_validate(result.inputs), result
-    line = load_line(path)
-    return line, solve(line)
-
-
 def write_tolerances(
     study: ToleranceStudy, folder: str | os.PathLike[str], figures: bool = True
 ) -> tuple[Path, ...]:
@@ -100,5 +84,4 @@ def write_tolerances(
             from catenaria.report.tolerance_figures import write_tolerance_figures  # slow to import
 
             write_tolerance_figures(study, new / "figures")
-        names = sorted(path.relative_to(new) for path in new.rglob("*") if path.is_file())
-    return tuple(Path(folder) / name for name in names)
+    return files_of(folder)

@@ -6,7 +6,7 @@ import os
 from pathlib import Path
 
 from catenaria.report.tables import write_tables
-from catenaria.results import FormResult, replace_folder, save_result
+from catenaria.results import FormResult, files_of, replace_folder, save_result
 from catenaria.workflow.report import report as page_of
 
 REPORT_NAME = "report.html"
@@ -42,8 +42,7 @@ def write(
         fill(result, new, figures)
         if report:
             (new / REPORT_NAME).write_text(page_of(result), encoding="utf-8")
-        names = sorted(path.relative_to(new) for path in new.rglob("*") if path.is_file())
-    return tuple(Path(folder) / name for name in names)
+    return files_of(folder)
 
 
 def fill(result: FormResult, folder: Path, figures: bool) -> None:

@@ -6,7 +6,7 @@ import os
 from collections.abc import Sequence
 from pathlib import Path
 
-from catenaria.results import replace_folder
+from catenaria.results import files_of, replace_folder
 from catenaria.validation.page import FIGURES, case_page, figure_name, overview
 from catenaria.workflow.validate import ValidatedCase
 
@@ -43,5 +43,4 @@ def write_validation(cases: Sequence[ValidatedCase], folder: str | os.PathLike[s
             for drawing in outcome.case.figures:
                 file = new / FIGURES / figure_name(outcome.name, drawing)
                 style.save(draw(case, drawing), file, compact=True)
-        names = sorted(path.relative_to(new) for path in new.rglob("*") if path.is_file())
-    return tuple(Path(folder) / name for name in names)
+    return files_of(folder)

@@ -135,6 +135,7 @@ class _Clamps:
 
     @classmethod
     def of(cls, layout: Layout) -> _Clamps:
+        """Return the knots of a line; what acts on a wire at the same chainage is at the same knot."""
         holds, droppers, ties, masses = layout.holds, layout.droppers, layout.ties, layout.masses
         parts = (
             (holds.wire, holds.frame),

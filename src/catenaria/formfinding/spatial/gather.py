@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from catenaria.discretise.spatial.model import SpatialModel
 from catenaria.discretise.spatial.read_back import Found, read_back
-from catenaria.errors import InfeasibleError
+from catenaria.errors import InfeasibleError, some
 from catenaria.formfinding.spatial.at_rest import dropper_names
 from catenaria.formfinding.versions import versions
 from catenaria.line import Line
@@ -27,7 +27,6 @@ _NOT_SLACK: Final = (
     "smaller pre-sag, less tension or other dropper positions would help"
 )
 _KINK: Final = ", and so would a longer rounding where the slope of the track changes beside them"
-_MOST_NAMES: Final = 8
 _UPSIDE_DOWN: Final = "The upper wire sags below the lower one: more tension or higher supports would help"
 _SHORT: Final = "The clamps bridge more than there is between the wires: check the clamp heights"
 
@@ -102,10 +101,4 @@ def _refuse_impossible(line: Line, model: SpatialModel, z: FloatArray, found: Fo
     ):
         if np.any(wrong):
             named = [f"{names[i]} ({size[i]:.4g} {unit})" for i in np.flatnonzero(wrong)]
-            raise InfeasibleError(f"droppers {what}: {_some(named)}. {advice}", found)
-
-
-def _some(names: list[str]) -> str:
-    """Join names, not too many."""
-    more = len(names) - _MOST_NAMES
-    return "; ".join(names[:_MOST_NAMES]) + (f"; and {more} more" if more > 0 else "")
+            raise InfeasibleError(f"droppers {what}: {some(named)}. {advice}", found)
