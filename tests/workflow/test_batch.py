@@ -54,7 +54,9 @@ def table(out: Path) -> list[dict[str, str]]:
 
 
 def complete(out: Path) -> set[str]:
-    return {path.parent.name for path in out.glob("*/result.json")}
+    """Names of result folders; a hidden one is a half that a killed worker left."""
+    names = {path.parent.name for path in out.glob("*/result.json")}
+    return {name for name in names if not name.startswith(".")}
 
 
 def hidden(out: Path) -> list[Path]:

@@ -9,19 +9,14 @@ import numpy as np
 import pytest
 
 from catenaria.audit import audit_result
-from catenaria.discretise.spatial.demands import to_find
-from catenaria.discretise.spatial.lay_out import lay_out
-from catenaria.discretise.spatial.model import guessed_model
 from catenaria.errors import InfeasibleError
 from catenaria.formfinding.spatial.direct import find_directly
-from catenaria.formfinding.spatial.gather import gather
+from catenaria.formfinding.spatial.dynamic import find_by_motion
 from catenaria.formfinding.spatial.rebuild import rebuild_in_space
-from catenaria.formfinding.static_problem import find_rest
 from catenaria.line import Line, load_line
-from catenaria.results.form import Counters, FormResult
+from catenaria.results.form import FormResult
 
 EXAMPLE = Path(__file__).parents[3] / "examples" / "yang2017_three_span.yaml"
-NO_WORK = Counters("line", 0.0, 0.0, 0, 0, 0, 0, 0, 0, 0)
 HIGH = (0.0, -0.03, -0.05, 0.0, -0.05, -0.03, 0.0)  # m: the wire cannot get down beside its middle dropper
 
 
@@ -41,18 +36,6 @@ def found() -> FormResult:
 def test_is_refused_by_name_where_it_is_not_allowed() -> None:
     with pytest.raises(InfeasibleError, match=r"dropper 3 in span 1 \(-.* N\)"):
         find_directly(line("refused"), None)
-
-
-def test_a_motion_that_leaves_droppers_pushing_says_which_method_lets_them_hang_slack() -> None:
-    """Where slack is allowed, less pre-sag is not the first thing to try; where it is not, it is."""
-    for slack, advice in (("allowed", "the method direct does"), ("refused", "a smaller pre-sag")):
-        model = guessed_model(lay_out(line(slack)))
-        system = to_find(model, model.unknowns.start, np.zeros(model.length.size, dtype=np.bool_))
-        pushing = find_rest(system, model.unknowns.start).y
-        with pytest.raises(InfeasibleError) as caught:
-            gather(line(slack), model, pushing, "dynamic", "", NO_WORK)
-        assert advice in str(caught.value)
-        assert ("the method direct does" in str(caught.value)) == (slack == "allowed")
 
 
 @pytest.mark.parametrize(("bridged", "told"), [(2.0, "; and 13 more. The clamps"), (0.0, "")])
@@ -96,6 +79,34 @@ def test_the_wire_runs_past_slack_droppers_as_if_they_were_not_there(found: Form
 def test_passes_its_audit_and_comes_back(found: FormResult) -> None:
     assert audit_result(found).passed
     assert rebuild_in_space(line("allowed"), found).passed
+
+
+@pytest.fixture(scope="module")
+def moved() -> FormResult:
+    data = line("allowed").model_dump()
+    dynamic = data["solver"]["dynamic"]
+    for control in ("contact_tension", "messenger_tension"):
+        dynamic[control] |= {"dead_band": 0.1, "saturation": 5.0}
+    dynamic["height"] |= {"velocity": 2e-3, "dead_band": 1e-6}
+    return find_by_motion(Line.model_validate(data), None)
+
+
+def test_motion_lets_the_same_droppers_hang_slack(found: FormResult, moved: FormResult) -> None:
+    """It rests, moves on without those that push, and rests again."""
+    assert [history.step for history in moved.histories] == ["line", "line with 6 slack droppers"]
+    assert len(moved.counters) == 2
+    np.testing.assert_array_equal(moved.droppers.slack, found.droppers.slack)
+    np.testing.assert_allclose(moved.droppers.height, found.droppers.height, rtol=0.0, atol=1e-5)
+    np.testing.assert_allclose(moved.droppers.force_bottom, found.droppers.force_bottom, rtol=0.0, atol=0.1)
+    assert audit_result(moved).findings == ()
+
+
+def test_the_first_rest_of_the_motion_had_droppers_that_push(moved: FormResult) -> None:
+    """Negative control: the slack ones had been held at their wanted heights, and are not in the end."""
+    first, last = moved.histories
+    assert len(first.control_name) == len(last.control_name) + 6
+    assert np.abs(first.error[-1, 2:]).max() < 1e-5
+    assert moved.droppers.height_error[moved.droppers.slack].min() > 1e-3
 
 
 def test_changes_nothing_where_all_droppers_pull() -> None:

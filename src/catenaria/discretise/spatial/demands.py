@@ -106,34 +106,45 @@ def to_find(model: SpatialModel, z: FloatArray, slack: Mask | None = None) -> Sy
     demands: list[Contribution] = list(_tensions(model, z))
     height = model.layout.droppers.height[~slack]
     demands.append(Targets(model.length[~slack], heights(model, z, ~slack), height))
-    if slack.any():
-        nothing = np.zeros(np.count_nonzero(slack))
-        demands.append(Targets(model.length[slack], Value(model.density[slack]), nothing))
+    demands += _nothing(model, slack)
     return model.system(z, demands, FULL, built=False)
 
 
-def to_move(model: SpatialModel, z: FloatArray, ramp: Ramp) -> System:
+def to_move(model: SpatialModel, z: FloatArray, ramp: Ramp, slack: Mask | None = None) -> System:
     """Return the system in which controls pull ends and change lengths while gravity grows, without inertia.
 
-    Droppers push as well as they pull on their way, and their masses act as weights only.
+    Droppers push as well as they pull on their way, and their masses act as weights only. Those of the mask
+    `slack`, shape (n_droppers,), carry nothing and have no control.
     """
-    return model.system(z, list(_controls(model, z, ramp)), ramp, built=False)
+    slack = np.zeros(model.length.size, dtype=np.bool_) if slack is None else slack
+    demands: list[Contribution] = [*_controls(model, z, ramp, ~slack), *_nothing(model, slack)]
+    return model.system(z, demands, ramp, built=False)
 
 
-def _controls(model: SpatialModel, z: FloatArray, velocity: Ramp) -> Iterator[Controls]:
-    """Yield the controls of tensions, one a wire, and of all heights."""
+def _nothing(model: SpatialModel, slack: Mask) -> Iterator[Targets]:
+    """Yield that slack droppers carry nothing, whatever their lengths."""
+    if slack.any():
+        nothing = np.zeros(np.count_nonzero(slack))
+        yield Targets(model.length[slack], Value(model.density[slack]), nothing)
+
+
+def _controls(model: SpatialModel, z: FloatArray, velocity: Ramp, taut: Mask) -> Iterator[Controls]:
+    """Yield the controls of tensions, one a wire, and of the heights at some droppers."""
     at_once = FULL
     for demand in tension_demands(model, z):
         target = np.array([demand.target])
         yield Controls(demand.parameter, demand.measure, target, demand.law, velocity, at_once, demand.sense)
     droppers, law = model.layout.droppers, model.layout.height_law
-    yield Controls(model.length, heights(model, z), droppers.height, law, velocity, at_once, -1.0)
+    target, measure = droppers.height[taut], heights(model, z, taut)
+    yield Controls(model.length[taut], measure, target, law, velocity, at_once, -1.0)
 
 
 def weightless(model: SpatialModel, z: FloatArray) -> System:
     """Return the line without gravity, tensioned, with droppers that carry nothing: a start for motions."""
-    demands: list[Contribution] = list(_tensions(model, z))
-    demands.append(Targets(model.length, Value(model.density), np.zeros(model.length.size)))
+    demands: list[Contribution] = [
+        *_tensions(model, z),
+        *_nothing(model, np.ones(model.length.size, np.bool_)),
+    ]
     free = replace(model.layout, g=0.0, holds=model.layout.holds.without_lift())
     return replace(model, layout=free).system(z, demands, FULL, built=False)
 

@@ -8,13 +8,14 @@ from time import perf_counter
 import numpy as np
 from numpy.typing import NDArray
 
-from catenaria.discretise.spatial.demands import heights, to_find
+from catenaria.discretise.spatial.demands import to_find
 from catenaria.discretise.spatial.layout import Layout
 from catenaria.discretise.spatial.model import SpatialModel, guessed_model
 from catenaria.discretise.spatial.numbering import NONE
 from catenaria.discretise.spatial.restart import start_from
 from catenaria.errors import InfeasibleError, NotConvergedError
 from catenaria.formfinding.free_motion import Names
+from catenaria.formfinding.spatial.slack import with_slack
 from catenaria.formfinding.static_problem import find_rest, static_problem
 from catenaria.results.form import Counters, FormResult
 from catenaria.solvers.load_stepping import SteppingOptions, solve_by_steps
@@ -24,7 +25,7 @@ FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 
 _ITERATIONS = 30
-_NOTHING, _LEVEL = 1e-6, 1e-9  # N/m and m by which a dropper may push, and a slack one may be too low
+_LEVEL = 1e-9  # m by which the wire of a slack dropper may be too low
 _STEPS = SteppingOptions(newton=NewtonOptions(max_iterations=12, permc_spec="NATURAL"))
 
 
@@ -86,34 +87,24 @@ class _Way:
 
 
 def _find(model: SpatialModel) -> _Way:
-    """Find the rest by Newton's method, or where that fails by load steps from the guess held fast."""
-    way = _find_with(model, model.unknowns.start, np.zeros(model.length.size, dtype=np.bool_))
-    if not model.layout.droppers.may_be_slack:
-        return way
-    slack, seen = np.zeros(model.length.size, dtype=np.bool_), set[bytes]()
-    while slack.tobytes() not in seen:
-        seen.add(slack.tobytes())
-        slack = _slack(model, way.z, slack)
-        again = _find_with(model, way.z, slack)
-        work = way.iterations + again.iterations, way.factorisations + again.factorisations
-        way = _Way(again.z, *work, f" ({np.count_nonzero(slack)} droppers hang slack)" if slack.any() else "")
-    if np.array_equal(_slack(model, way.z, slack), slack):
-        return way
-    raise NotConvergedError(
-        "it is not decided which droppers hang slack: one set of them leads to another, and back",
-        "wanted heights that every dropper can pull up to",
-        way,
+    """Find the rest, with droppers that hang slack where they may."""
+
+    def find(slack: NDArray[np.bool_], before: _Way | None) -> _Way:
+        return _find_with(model, model.unknowns.start if before is None else before.z, slack)
+
+    ways = with_slack(model, find, lambda way: way.z, _LEVEL)
+    last, more = ways[-1], len(ways) > 1
+    return _Way(
+        last.z,
+        sum(way.iterations for way in ways),
+        sum(way.factorisations for way in ways),
+        "".join(way.how for way in ways)
+        + (f", in {len(ways)} rests to decide on slack droppers" if more else ""),
     )
 
 
-def _slack(model: SpatialModel, z: FloatArray, slack: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Return which droppers would push, and which of the slack ones are above their wanted height."""
-    above = heights(model, z).value(0.0, z) > model.layout.droppers.height - _LEVEL
-    return np.where(slack, above, z[model.density] < -_NOTHING)
-
-
 def _find_with(model: SpatialModel, z: FloatArray, slack: NDArray[np.bool_]) -> _Way:
-    """Find the rest in which some droppers carry nothing."""
+    """Find the rest in which some droppers carry nothing, by Newton's method or else by load steps."""
     names, system = parts_of(model), to_find(model, z, slack)
     try:
         root = find_rest(system, z, _ITERATIONS, names)

@@ -36,4 +36,4 @@ def find_directly(line: Line, listener: Listener | None, start: FormResult | Non
     if listener is not None:
         listener(Progress("lengths", 2, 2, elapsed=perf_counter() - begin))
     reason = f"Newton's method converged in {found.work.steps} iterations{found.how}"
-    return gather(line, found.model, found.z, "direct", reason, found.work)
+    return gather(line, found.model, found.z, "direct", reason, (found.work,))

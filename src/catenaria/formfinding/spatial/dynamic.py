@@ -8,18 +8,20 @@ from numpy.typing import NDArray
 from catenaria.discretise.history import control_errors
 from catenaria.discretise.spatial.lay_out import lay_out
 from catenaria.discretise.spatial.model import FULL, SpatialModel
-from catenaria.discretise.spatial.read_back import control_names, control_units
 from catenaria.discretise.spatial.read_supports import hold_strain_tension
 from catenaria.discretise.spatial.restart import start_from
 from catenaria.formfinding.controlled_motion import Motion
 from catenaria.formfinding.progress import Listener, Progress
 from catenaria.formfinding.spatial.gather import gather
 from catenaria.formfinding.spatial.motion import MovingLine, at_start, move_line
+from catenaria.formfinding.spatial.slack import with_slack
 from catenaria.line import Line
 from catenaria.results.form import Counters, FormResult, History
 from catenaria.solvers.outcome import Solution
 
 FloatArray = NDArray[np.float64]
+
+_BANDS = 2.0  # of heights, by which the wire of a slack dropper may be too low
 
 
 def find_by_motion(line: Line, listener: Listener | None, start: FormResult | None = None) -> FormResult:
@@ -44,11 +46,25 @@ def find_by_motion(line: Line, listener: Listener | None, start: FormResult | No
     moving = at_start(lay_out(line))
     if start is not None:
         moving = MovingLine.of(start_from(moving.model, start), 0.0)
-    motion = move_line(moving, line.solver.dynamic, listener)
-    bands = tuple(control.law.e0 for control in motion.controls)
-    history = _history(moving, motion.solution, _joint_names(line, moving.model))
+
+    def find(slack: NDArray[np.bool_], before: Motion[MovingLine] | None) -> Motion[MovingLine]:
+        begin = moving if before is None else moving.at(before.z, slack)
+        return move_line(begin, line.solver.dynamic, listener)
+
+    motions = with_slack(
+        moving.model, find, lambda motion: motion.z, _BANDS * moving.model.layout.height_law.e0
+    )
+    bands = tuple(control.law.e0 for control in motions[-1].controls)
+    joints = _joint_names(line, moving.model)
     return gather(
-        line, moving.model, motion.z, "dynamic", motion.solution.reason, _counters(motion), (history,), bands
+        line,
+        moving.model,
+        motions[-1].z,
+        "dynamic",
+        "; ".join(motion.solution.reason for motion in motions),
+        tuple(map(_counters, motions)),
+        tuple(_history(motion.model, motion.solution, joints) for motion in motions),
+        bands,
     )
 
 
@@ -81,8 +97,8 @@ def _history(moving: MovingLine, solution: Solution, joint_names: tuple[str, ...
         time=solution.t,
         step_size=solution.h,
         order=solution.order,
-        control_name=control_names(model),
-        control_unit=control_units(model),
+        control_name=moving.control_names,
+        control_unit=moving.control_units,
         error=np.array([control_errors(controls, t, z) for t, z, _ in steps]),
         parameter=solution.y[:, parameter],
         velocity=solution.yd[:, parameter],

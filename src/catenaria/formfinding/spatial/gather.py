@@ -22,10 +22,6 @@ _COMPRESSION: Final = (
     "The wanted heights are below where the tension lets the lower wire hang: a smaller pre-sag, less "
     "tension or other dropper positions would help"
 )
-_NOT_SLACK: Final = (
-    "They may hang slack, but the dynamic method lets no dropper do so: the method direct does, and a "
-    "smaller pre-sag, less tension or other dropper positions would help"
-)
 _KINK: Final = ", and so would a longer rounding where the slope of the track changes beside them"
 _UPSIDE_DOWN: Final = "The upper wire sags below the lower one: more tension or higher supports would help"
 _SHORT: Final = "The clamps bridge more than there is between the wires: check the clamp heights"
@@ -37,7 +33,7 @@ def gather(
     z: FloatArray,
     method: str,
     reason: str,
-    counters: Counters,
+    counters: tuple[Counters, ...],
     history: tuple[History, ...] = (),
     bands: tuple[float, ...] | None = None,
 ) -> FormResult:
@@ -78,7 +74,7 @@ def gather(
         cantilevers=found.cantilevers,
         controls=found.controls,
         histories=history,
-        counters=(counters,),
+        counters=counters,
         stages=(found.stage,),
         inputs=line.model_dump(mode="json"),
         versions=versions(),
@@ -91,7 +87,7 @@ def _refuse_impossible(line: Line, model: SpatialModel, z: FloatArray, found: Fo
     weakest = np.minimum(droppers.force_top, droppers.force_bottom)
     may_be_slack = model.layout.droppers.may_be_slack
     pushes = (weakest < 0.0) & (not may_be_slack or z[model.density] < -_NOTHING)
-    why = _NOT_SLACK if may_be_slack else _COMPRESSION  # where slack is allowed, direct leaves none that push
+    why = _COMPRESSION
     if line.track.gradients:
         why += _KINK
     for size, wrong, unit, what, advice in (

@@ -23,7 +23,7 @@ from catenaria.discretise.spatial.guess import weightless as weightless_guess
 from catenaria.discretise.spatial.layout import Layout
 from catenaria.discretise.spatial.model import FULL, SpatialModel, build_model
 from catenaria.discretise.spatial.numbering import graded_meshes
-from catenaria.discretise.spatial.read_back import control_names
+from catenaria.discretise.spatial.read_back import control_names, control_units
 from catenaria.formfinding.controlled_motion import Motion, move, system_of
 from catenaria.formfinding.motion_problem import Tolerances
 from catenaria.formfinding.progress import Listener, Progress
@@ -60,29 +60,52 @@ class MovingLine:
         Of all wires; droppers, clamps and masses are weights only.
     ramp_time : float
         Until when gravity and control velocities grow [s].
+    slack : NDArray of bool, shape (n_droppers,)
+        Droppers that carry nothing.
     """
 
     model: SpatialModel
     system: System
     inertia: Inertia
     ramp_time: float
+    slack: NDArray[np.bool_]
 
     @property
     def name(self) -> str:
         """Name, for messages."""
-        return "line"
+        count = np.count_nonzero(self.slack)
+        return f"line with {count} slack droppers" if count else "line"
+
+    @property
+    def control_names(self) -> tuple[str, ...]:
+        """Names of all controls."""
+        return self._controlled(control_names(self.model))
+
+    @property
+    def control_units(self) -> tuple[str, ...]:
+        """Units of their errors."""
+        return self._controlled(control_units(self.model))
+
+    def _controlled(self, every: tuple[str, ...]) -> tuple[str, ...]:
+        there = np.append(np.ones(len(every) - self.slack.size, dtype=np.bool_), ~self.slack)
+        return tuple(name for name, own in zip(every, there, strict=True) if own)
 
     @classmethod
-    def of(cls, model: SpatialModel, ramp_time: float) -> MovingLine:
-        """Return a line that begins to move where its unknowns start."""
+    def of(cls, model: SpatialModel, ramp_time: float, slack: NDArray[np.bool_] | None = None) -> MovingLine:
+        """Return a line that begins to move where its unknowns start, with droppers that carry nothing."""
         start = model.unknowns.start
-        still, inertia = to_move(model, start, Ramp(ramp_time)), _inertia(model)
+        slack = np.zeros(model.length.size, dtype=np.bool_) if slack is None else slack
+        still, inertia = to_move(model, start, Ramp(ramp_time), slack), _inertia(model)
         parts = (*still.contributions, inertia)
         alpha, beta = model.layout.damping
         if alpha or beta:
             stiffness = assemble(model.elements, model.elements.stiffness(start), start.size)
             parts = (*parts, RayleighDamping(csr_array(alpha * inertia.M + beta * stiffness)))
-        return cls(model, System(still.unknowns, parts), inertia, ramp_time)
+        return cls(model, System(still.unknowns, parts), inertia, ramp_time, slack)
+
+    def at(self, z: FloatArray, slack: NDArray[np.bool_]) -> MovingLine:
+        """Return the line where it has come to rest, to move on with other droppers that carry nothing."""
+        return MovingLine.of(replace(self.model, unknowns=replace(self.model.unknowns, start=z)), 0.0, slack)
 
     def controls(self, system: System) -> tuple[Controls, ...]:
         """Return the controls with the discrete state of the given system: tensions, then heights."""
@@ -168,13 +191,13 @@ def _tolerances(moving: MovingLine, position: float) -> Tolerances:
 
 def _observer(moving: MovingLine, listener: Listener) -> Callable[[Step], None]:
     """Return what tells the listener about accepted time steps."""
-    names = control_names(moving.model)
+    names = moving.control_names
     tensions = len(moving.model.wires)
 
     def observe(step: Step) -> None:
         controls = moving.controls(system_of(step))
         bands, batch, place = largest_error(controls, step.t, step.y)
         worst = names[min(batch, tensions) + place]
-        listener(Progress("line", 1, 2, step.t, step.h, step.number, step.order, worst, bands))
+        listener(Progress(moving.name, 1, 2, step.t, step.h, step.number, step.order, worst, bands))
 
     return observe
