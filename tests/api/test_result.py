@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 import catenaria
 from catenaria.results import NOT_AUDITED, NOT_REBUILT
 
-SUFFIX = re.compile(r".*_(m|N|deg|Nm|kg|s)$")
+SUFFIX = re.compile(r".*_(m|N|deg|degC|Nm|kg|s)$")
 
 
 def test_tables_are_those_of_the_form(paper: catenaria.Result) -> None:

@@ -259,7 +259,7 @@ def build(spans: int) -> FormResult:
         histories=both,
         counters=(counters("contact wire", 492.0), counters("messenger wire", 730.0)),
         stages=(stage("contact wire"), stage("messenger wire")),
-        inputs={"gravity": 9.8},
+        inputs={"gravity": 9.8, "reference_temperature": 15.0},
         versions={"catenaria": "0.1.0"},
     )
 

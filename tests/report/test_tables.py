@@ -15,7 +15,7 @@ import pytest
 from catenaria.report.tables import TABLES, TableName, table, write_tables
 from catenaria.results import FormResult
 
-UNITS = ("_m", "_N", "_Nm", "_s", "_J", "_m_per_s", "_deg", "_kg")
+UNITS = ("_m", "_N", "_Nm", "_s", "_J", "_m_per_s", "_deg", "_degC", "_kg")
 WITHOUT_UNIT = {
     "span", "dropper", "wire", "support", "step", "order", "tension_measure", "control", "unit", "target",
     "value", "error", "dead_band", "steps", "rejected", "newton_failures", "residuals", "jacobians",
@@ -50,8 +50,9 @@ def test_dropper_schedule(result: FormResult, tmp_path: Path) -> None:
         "span", "dropper", "x_m", "length_m", "cut_length_m", "unstressed_length_m", "force_top_N",
         "force_bottom_N", "height_m", "target_height_m", "height_error_m", "messenger_height_m",
         "force_error_N", "chainage_m", "upper_wire", "lower_wire", "stagger_top_m", "stagger_bottom_m",
-        "inclination_deg", "slack",
+        "inclination_deg", "slack", "reference_temperature_degC",
     ]  # fmt: skip
+    assert {float(row["reference_temperature_degC"]) for row in rows} == {15.0}
     assert (rows[0]["upper_wire"], rows[0]["slack"]) == ("messenger wire", "False")
     assert (rows[0]["inclination_deg"], rows[0]["chainage_m"]) == ("0.0000", rows[0]["x_m"])
     assert (rows[8]["span"], rows[8]["dropper"], rows[8]["x_m"]) == ("2", "2", "78.50000")

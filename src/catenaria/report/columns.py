@@ -37,6 +37,7 @@ def dropper_columns(result: FormResult) -> Columns:
         "stagger_bottom_m": droppers.stagger_bottom,
         "inclination_deg": np.degrees(droppers.inclination),
         "slack": droppers.slack,
+        "reference_temperature_degC": np.full(droppers.x.size, float(result.inputs["reference_temperature"])),
     }
 
 
