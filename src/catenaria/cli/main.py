@@ -20,6 +20,7 @@ from catenaria.cli.new import new
 from catenaria.cli.report import report
 from catenaria.cli.rounding import rounding
 from catenaria.cli.solve import solve
+from catenaria.cli.studio import studio
 from catenaria.cli.tolerance import tolerance
 from catenaria.cli.validate import validate
 
@@ -46,6 +47,7 @@ app.command()(tolerance)
 app.command()(adjust)
 app.command()(checks)
 app.command()(report)
+app.command()(studio)
 
 
 def _show_version(wanted: bool) -> None:

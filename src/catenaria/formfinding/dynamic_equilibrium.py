@@ -13,6 +13,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from time import perf_counter
 
+from catenaria.discretise.film import film
 from catenaria.discretise.from_line import contact_wire_setup, messenger_wire_setup
 from catenaria.discretise.history import control_names, history
 from catenaria.discretise.restart import stage_of, start_from, with_full_gravity
@@ -26,6 +27,7 @@ from catenaria.formfinding.settling import Settled, largest_error
 from catenaria.formfinding.spatial.dynamic import find_by_motion
 from catenaria.formfinding.third_step import gather, support_names
 from catenaria.line import Line
+from catenaria.results.film import Film
 from catenaria.results.form import Counters, FormResult, History
 from catenaria.solvers.outcome import Options, Step
 
@@ -41,9 +43,15 @@ class DynamicEquilibrium:
     ----------
     listener : callable, optional
         Is told after every time step how far the motion is.
+    filmed : callable, optional
+        Receives a film of each step of a plane line when the step is over.
+    frames : int
+        How many states a film has at most.
     """
 
     listener: Listener | None = None
+    filmed: Callable[[Film], None] | None = None
+    frames: int = 100
 
     def find_form(self, line: Line, start: FormResult | None = None) -> FormResult:
         """Find the form of a line.
@@ -98,7 +106,7 @@ class DynamicEquilibrium:
             earlier = stage_of(start, setup.name)
             model = start_from(build_wire_model(with_full_gravity(setup)), earlier)
         options = line.solver.dynamic
-        return move(
+        motion = move(
             model,
             tolerances(model, options.integrator.position_tolerance),
             Options(
@@ -111,6 +119,9 @@ class DynamicEquilibrium:
             options.integrator.max_time,
             self._observers(model, number, begin),
         )
+        if self.filmed is not None:
+            self.filmed(film(model, motion.solution, self.frames))
+        return motion
 
     def _observers(self, model: WireModel, number: int, begin: float) -> tuple[Callable[[Step], None], ...]:
         """Return the observer that tells the listener about accepted time steps, if there is a listener."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Annotated, Literal
 
-from annotated_types import Ge
+from annotated_types import Ge, Le
 from pydantic import Field, Strict, model_validator
 
 from catenaria.errors import InconsistentInputError
@@ -80,7 +80,9 @@ class Droppers(LineModel):
     spacing: PositiveLength | None = Field(
         default=None, description="Distance between neighbouring droppers."
     )
-    count: Annotated[int, Strict(), Ge(1)] | None = Field(default=None, description="Number of droppers.")
+    count: Annotated[int, Strict(), Ge(1), Le(1000)] | None = Field(
+        default=None, description="Number of droppers, 1 to 1000."
+    )
 
     @property
     def x(self) -> tuple[float, ...]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator
 from pathlib import Path as FilePath
-from typing import Any, NoReturn, Protocol
+from typing import Any, Final, NoReturn, Protocol
 
 from ruamel.yaml import YAML
 from ruamel.yaml.error import MarkedYAMLError
@@ -15,6 +15,7 @@ from catenaria.errors import Fault, LineFileError
 from catenaria.line.base import Path
 from catenaria.line.source import Mark, Source, format_path
 
+_MOST_VALUES: Final = 1_000_000  # aliases of aliases write billions of values in a few lines
 _PLAIN_TAGS = frozenset(
     f"tag:yaml.org,2002:{kind}" for kind in ("null", "bool", "int", "float", "str", "timestamp")
 )
@@ -119,6 +120,7 @@ class _Builder:
         self.keys: dict[Path, Mark] = {}
         self.faults: list[Fault] = []
         self.open: set[int] = set()
+        self.values_read = 0
         self.yaml: Any = YAML(typ="safe", pure=True)
 
     def build(self, text: str) -> tuple[object, Source]:
@@ -148,7 +150,18 @@ class _Builder:
             _refuse(self.file, "nothing", "a mapping with the fields of a line")
         return root
 
+    def _count(self, node: Node) -> None:
+        self.values_read += 1
+        if self.values_read > _MOST_VALUES:
+            _refuse(
+                self.file,
+                f"more than {_MOST_VALUES} values, aliases written out",
+                "a line that fits into memory",
+                _mark(node),
+            )
+
     def _data(self, node: Node, path: Path) -> object:
+        self._count(node)
         self.values[path] = _mark(node)
         if node.id == "scalar":
             return self._scalar(node, path)
@@ -190,6 +203,7 @@ class _Builder:
 
     def _merged(self, node: Node, path: Path) -> Iterator[tuple[str, Node]]:
         """Fields that ``<<: *anchor`` brings in; of several anchors the first one counts."""
+        self._count(node)
         for key, value in node.value:
             if str(key.tag) != "tag:yaml.org,2002:merge":
                 continue

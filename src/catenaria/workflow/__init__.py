@@ -6,9 +6,17 @@ from catenaria.workflow.batch import BatchProgress, solve_many
 from catenaria.workflow.batch_table import BatchSummary, Row
 from catenaria.workflow.compare import Compared, compare, write_comparison
 from catenaria.workflow.elasticity import elasticity, elasticity_as, write_elasticity
-from catenaria.workflow.export import FORMATS, ExportOptions, export, formats_of, tables_schema
+from catenaria.workflow.export import (
+    FORMATS,
+    ExportFormat,
+    ExportOptions,
+    export,
+    formats_of,
+    tables_schema,
+)
 from catenaria.workflow.loads import under_loads, write_loads
 from catenaria.workflow.methods import METHODS, NEGLECTS
+from catenaria.workflow.replay import replay
 from catenaria.workflow.report import check_result, report, write_report
 from catenaria.workflow.rounding import rounding, write_rounding
 from catenaria.workflow.solve import Rebuild, solve
@@ -27,6 +35,7 @@ __all__ = [
     "BatchSummary",
     "CaseProgress",
     "Compared",
+    "ExportFormat",
     "ExportOptions",
     "Progress",
     "Rebuild",
@@ -39,6 +48,7 @@ __all__ = [
     "elasticity_as",
     "export",
     "formats_of",
+    "replay",
     "report",
     "rounding",
     "solve",

@@ -26,9 +26,9 @@ _IN_PLANE = 1e-6  # m
 _ONCE = ("stitch wire", "mid-point anchor")  # roles of which there are many wires: one label for all
 
 
-def profile_figures(result: FormResult) -> list[Drawing]:
-    """Draw the heights of all wires with their droppers, seen from the side."""
-    return list(_in_windows(result, "profile", "Profile: heights of all wires", "height [m]", _profile))
+def profile_figures(result: FormResult, most: float = _MOST) -> list[Drawing]:
+    """Draw the heights of all wires with their droppers, seen from the side, `most` metres in one figure."""
+    return list(_in_windows(result, "profile", "Profile: heights of all wires", "height [m]", _profile, most))
 
 
 def height_figures(result: FormResult, tolerance: float | None) -> list[Drawing]:
@@ -41,11 +41,12 @@ def height_figures(result: FormResult, tolerance: float | None) -> list[Drawing]
     return list(_in_windows(result, "heights", title, "above wanted [mm]", draw))
 
 
-def plan_figures(result: FormResult) -> list[Drawing]:
+def plan_figures(result: FormResult, most: float = _MOST) -> list[Drawing]:
     """Draw the lateral offsets of all wires with arms, seen from above; nothing if all lie in one plane."""
     if all(float(np.abs(wire.profile.lateral).max()) < _IN_PLANE for wire in result.wires):
         return []
-    return list(_in_windows(result, "plan", "Plan: lateral offsets of all wires", "to the left [m]", _plan))
+    title = "Plan: lateral offsets of all wires"
+    return list(_in_windows(result, "plan", title, "to the left [m]", _plan, most))
 
 
 def tension_figures(result: FormResult) -> list[Drawing]:
@@ -65,16 +66,18 @@ def extent(result: FormResult) -> Window:
     return min(float(x.min()) for x in chainages), max(float(x.max()) for x in chainages)
 
 
-def _windows(result: FormResult) -> Iterator[Window]:
+def _windows(result: FormResult, most: float) -> Iterator[Window]:
     """Yield the parts of the line, all equally long."""
     start, end = extent(result)
-    count = min(math.ceil((end - start) / _MOST), _MOST_WINDOWS)
+    count = min(max(math.ceil((end - start) / most), 1), _MOST_WINDOWS)
     yield from pairwise(np.linspace(start, end, count + 1).tolist())
 
 
-def _in_windows(result: FormResult, name: str, title: str, quantity: str, draw: Drawer) -> Iterator[Drawing]:
+def _in_windows(
+    result: FormResult, name: str, title: str, quantity: str, draw: Drawer, most: float = _MOST
+) -> Iterator[Drawing]:
     """Draw the parts of a line below each other to the same scale."""
-    windows = list(_windows(result))
+    windows = list(_windows(result, most))
     parts = [draw(result, window, set()) for window in windows]
     low, high = _reach([trace for part in parts for trace in part])
     supports = support_places(result)

@@ -1,0 +1,180 @@
+"""The page of one person: head, editor, panels, and what connects them."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable
+from functools import partial
+from typing import Any, Final
+
+from nicegui import events, run, ui
+
+from catenaria.errors import CatenariaError
+from catenaria.results import FormResult
+from catenaria.studio import downloads
+from catenaria.studio.documents import EXAMPLES, MOST_BYTES, Document, example, uploaded
+from catenaria.studio.downloads import EXPORTS, Download
+from catenaria.studio.editor import Editor
+from catenaria.studio.panels import Panels
+from catenaria.studio.replay import Replay
+from catenaria.studio.solve import LatestWins, Outcome, solved
+from catenaria.studio.state import Session
+
+_FILES: Final = (
+    ("save-droppers", "Droppers, CSV", downloads.droppers_csv),
+    ("save-report", "Report, HTML", downloads.report_page),
+    ("save-result", "Result folder, ZIP", downloads.result_folder),
+)
+
+
+class Page:
+    """Everything that one tab of a browser shows."""
+
+    def __init__(self, session: Session) -> None:
+        self._session = session
+        self._client = ui.context.client
+        self._loop = asyncio.get_running_loop()
+        self._worker = LatestWins(solved, self._deliver)
+        self._dark = ui.dark_mode(False)
+        with ui.header().classes("top"):
+            self._header()
+        with ui.element("div").classes("halves"):
+            with ui.element("div").classes("half"):
+                self._editor = Editor(session, self._solve)
+            with ui.element("div").classes("half"):
+                self._panels = Panels(session)
+                with self._panels.place("replay"):
+                    self._replay = Replay(session)
+        self._show_state()
+        self._solve()
+
+    def _header(self) -> None:
+        ui.label("catenaria studio").classes("title")
+        ui.select(dict(EXAMPLES), label="example", on_change=self._choose).props(
+            "dense options-dense"
+        ).classes("chooser").mark("example")
+        ui.upload(
+            label="line file",
+            auto_upload=True,
+            max_file_size=MOST_BYTES,
+            on_upload=self._take,
+            on_rejected=lambda: ui.notify(f"Refused: {MOST_BYTES / 1e6:g} MB at most", type="negative"),
+        ).props('accept=".yaml,.yml,.json" flat dense').classes("upload").mark("upload")
+        self._undo = _button("undo", "undo", lambda: self._back(self._session.undo))
+        self._redo = _button("redo", "redo", lambda: self._back(self._session.redo))
+        self._pin = _button("push_pin", "pin this variant", self._toggle_pin)
+        with ui.button("Download", icon="download").props("flat dense no-caps").mark("download"), ui.menu():
+            self._items()
+        _button("dark_mode", "light or dark", self._toggle_dark)
+        self._status = ui.label("").classes("status").mark("status")
+
+    def _items(self) -> None:
+        ui.menu_item("Line file, YAML", on_click=self._save_line).mark("save-line")
+        for mark, label, make in _FILES:
+            _item(label, mark, partial(self._save, make))
+        ui.separator()
+        for name, label in EXPORTS.items():
+            _item(label, f"save-{name}", partial(self._save, partial(downloads.exported, name)))
+
+    def _choose(self, event: events.ValueChangeEventArguments[Any]) -> None:
+        if event.value:
+            self._open(example(event.value))
+
+    async def _take(self, event: events.UploadEventArguments) -> None:
+        try:
+            document = await run.io_bound(uploaded, event.file.name, await event.file.read())
+        except CatenariaError as error:
+            ui.notify(str(error), type="negative", multi_line=True, timeout=0, close_button=True)
+            return
+        if document is not None:
+            self._open(document)
+
+    def _open(self, document: Document) -> None:
+        self._session.open(document)
+        self._panels.clear()
+        self._editor.rebuild()
+        self._solve()
+
+    def _back(self, step: Callable[[], None]) -> None:
+        step()
+        self._editor.refresh()
+        self._solve()
+
+    def _solve(self) -> None:
+        self._show_state()
+        self._replay.reset()
+        self._worker.submit(self._session.document)
+
+    def _deliver(self, outcome: Outcome) -> None:
+        if not self._loop.is_closed():  # as it is when the server has ended meanwhile
+            self._loop.call_soon_threadsafe(self._show, outcome)
+
+    def _show(self, outcome: Outcome) -> None:
+        if outcome.document is not self._session.document or self._client.is_deleted:
+            return
+        self._session.take(outcome)
+        with self._client:
+            self._editor.mark(outcome.faults, outcome.message)
+            self._panels.refresh()
+        self._show_state()
+
+    def _show_state(self) -> None:
+        session = self._session
+        self._undo.set_enabled(session.can_undo)
+        self._redo.set_enabled(session.can_redo)
+        self._pin.props(f"color={'accent' if session.pinned is not None else 'primary'}")
+        self._status.text = _said(session)
+
+    def _toggle_pin(self) -> None:
+        if self._session.pinned is None:
+            self._session.pin()
+        else:
+            self._session.unpin()
+        self._show_state()
+        self._panels.refresh()
+
+    def _toggle_dark(self) -> None:
+        self._dark.toggle()
+        self._panels.dark = self._replay.dark = bool(self._dark.value)
+        self._replay.redraw()
+        self._panels.refresh()
+
+    def _save_line(self) -> None:
+        file = downloads.line_file(self._session.document)
+        ui.download(file.content, file.name)
+
+    async def _save(self, make: Callable[[FormResult], Download]) -> None:
+        outcome = self._session.outcome
+        if outcome is None or outcome.result is None or outcome.document is not self._session.document:
+            ui.notify("There is no form of this line to download.", type="warning")
+            return
+        try:
+            file = await run.io_bound(make, outcome.result)
+        except CatenariaError as error:
+            ui.notify(str(error), type="negative", multi_line=True)
+            return
+        if file is not None:  # None: the server is being shut down
+            ui.download(file.content, file.name)
+
+
+def _said(session: Session) -> str:
+    outcome = session.outcome
+    if outcome is None or outcome.document is not session.document:
+        return "solving …"
+    if outcome.result is None:
+        return "not solved: shown is the last form" if session.form is not None else "not solved"
+    ruled = [check.verdict for check in outcome.checks if check.rule]
+    audit = "audit passed" if outcome.result.audit.passed else "AUDIT FAILED"
+    fails = ruled.count("fails")
+    return f"{audit} · {fails} of {len(ruled)} checks fail · {1e3 * outcome.seconds:.0f} ms"
+
+
+def _button(icon: str, says: str, act: Callable[[], Any]) -> Any:
+    button = ui.button(icon=icon, on_click=act).props(f'flat dense aria-label="{says}"').mark(says)
+    with button:
+        ui.tooltip(says)
+    return button
+
+
+def _item(label: str, mark: str, act: Callable[[], Any]) -> None:
+    ui.menu_item(label, on_click=act).mark(mark)

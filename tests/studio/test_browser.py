@@ -1,0 +1,191 @@
+"""A tour in a real browser: edit, see numbers change, make mistakes, compare, replay, take files away."""
+
+from __future__ import annotations
+
+import csv
+import re
+import shutil
+import subprocess
+import sys
+from collections.abc import Generator
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Browser, Download, Error, Page, expect, sync_playwright
+
+from catenaria.line import Line
+from catenaria.line.load import load_line, model_from
+from catenaria.studio.documents import MOST_BYTES, Document, as_yaml, example, replaced
+
+CHROMIUM = shutil.which("chromium") or shutil.which("google-chrome") or ""
+START = "from catenaria.cli.main import main; main()"
+SOLVED = "audit passed"
+PATIENCE = 30_000  # ms
+
+
+@pytest.fixture(scope="module")
+def url() -> Generator[str]:
+    """Return the address of a studio that runs as people start it."""
+    command = [sys.executable, "-c", START, "studio", "--no-browser"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as server:
+        assert server.stdout is not None
+        try:
+            yield server.stdout.readline().split()[1]
+        finally:
+            server.terminate()
+
+
+@pytest.fixture(scope="module")
+def browser(url: str) -> Generator[Browser]:
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
+        yield browser
+        browser.close()
+
+
+class Visit:
+    """A person with a browser of their own, and what the page complained of."""
+
+    def __init__(self, browser: Browser, url: str) -> None:
+        self.said: list[str] = []
+        context = browser.new_context(viewport={"width": 1500, "height": 950}, accept_downloads=True)
+        self.page: Page = context.new_page()
+        self.page.set_default_timeout(PATIENCE)
+        self.page.on("console", lambda message: self.said.append(message.text))
+        self.page.on("pageerror", lambda error: self.said.append(str(error)))
+        for _ in range(100):  # the address is said just before the server listens
+            try:
+                self.page.goto(url)
+                break
+            except Error as error:
+                if "ERR_CONNECTION_REFUSED" not in str(error):
+                    raise
+                self.page.wait_for_timeout(200)
+        self.said.clear()
+        self.solved()
+
+    def status(self) -> str:
+        return self.page.locator(".status").text_content() or ""
+
+    def solved(self) -> None:
+        expect(self.page.locator(".status")).to_contain_text(SOLVED, timeout=PATIENCE)
+
+    def choose(self, label: str) -> None:
+        self.page.locator(".chooser").click()
+        self.page.get_by_text(label, exact=True).click()
+
+    def enter(self, field: str, text: str) -> None:
+        place = self.page.locator(f'[data-field="{field}"]')
+        place.fill(text)
+        place.press("Enter")
+
+    def tab(self, name: str) -> None:
+        self.page.get_by_role("tab", name=name).click()
+
+    def take(self, label: str) -> Download:
+        with self.page.expect_download() as download:
+            self.page.get_by_role("button", name="Download").click()
+            self.page.get_by_text(label, exact=True).click()
+        return download.value
+
+    def close(self) -> None:
+        self.page.context.close()
+
+
+@pytest.fixture
+def visit(browser: Browser, url: str) -> Generator[Visit]:
+    visit = Visit(browser, url)
+    yield visit
+    assert visit.said == []
+    visit.close()
+
+
+def schedule(download: Download) -> list[float]:
+    with Path(download.path()).open(encoding="utf-8") as file:
+        return [float(row["cut_length_m"]) for row in csv.DictReader(file)]
+
+
+@pytest.mark.slow
+def test_an_editing_tour(visit: Visit) -> None:
+    page = visit.page
+    visit.choose("AC line, 60 m spans, cantilevers")
+    expect(page.locator('[data-field="spans[11].length"]')).to_have_value("60")
+    visit.solved()
+    expect(page.locator(".js-plotly-plot .main-svg").first).to_be_visible()
+    before = schedule(visit.take("Droppers, CSV"))
+    page.get_by_label("pin this variant").click()
+
+    visit.enter("supports[3].stagger", "-150")
+    expect(page.locator(".status")).to_contain_text("1 of")  # the arm there pushes now: a check fails
+    visit.enter("spans[2].pre_sag_per_mille", "0.8")
+    visit.tab("Compare")
+    expect(page.get_by_text("Against the pinned variant")).to_be_visible()
+    visit.solved()
+    after = schedule(visit.take("Droppers, CSV"))
+    changed = [i for i, (old, new) in enumerate(zip(before, after, strict=True)) if abs(new - old) > 5e-3]
+    assert changed
+    assert set(changed) <= set(range(18, 27))  # droppers of the third span
+
+    visit.enter("spans[2].length", "60 kg")
+    expect(page.get_by_text('found "60 kg"; allowed: a length')).to_be_visible()
+    expect(page.locator(".status")).to_contain_text("not solved")
+    page.get_by_label("undo", exact=True).click()
+    visit.solved()
+    expect(page.get_by_text('found "60 kg"')).to_have_count(0)
+
+    line = load_line(visit_file(visit.take("Line file, YAML")))
+    tree = replaced(example("simple_60m").tree, ("supports", 3, "stagger"), -0.15)
+    tree = replaced(tree, ("spans", 2, "pre_sag_per_mille"), 0.8)
+    assert line == model_from(tree, Line)
+    for name in ("Tension", "Droppers", "Supports", "Checks", "Form"):
+        visit.tab(name)
+        page.wait_for_timeout(300)
+
+
+def visit_file(download: Download) -> Path:
+    path = Path(download.path())
+    return path.rename(path.with_suffix(".yaml"))
+
+
+@pytest.mark.slow
+def test_the_replay_reaches_the_form(visit: Visit) -> None:
+    page = visit.page
+    visit.tab("Replay")
+    page.get_by_role("button", name="Move it").click()
+    expect(page.locator(".panel .js-plotly-plot .main-svg").first).to_be_visible(timeout=120_000)
+    expect(page.get_by_text(re.compile(r"contact wire, [\d.]+ s ·"))).to_be_visible()  # it plays by itself
+    expect(page.get_by_text("messenger wire, ")).to_be_visible(timeout=120_000)
+    expect(page.get_by_text("dropper force error 0.0")).to_be_visible(timeout=120_000)
+
+
+def test_an_uploaded_line_is_solved_and_a_large_file_is_not(visit: Visit, tmp_path: Path) -> None:
+    file = tmp_path / "mine.yaml"
+    tree = replaced(example("yang2017_three_span").tree, ("name",), "<b>mine</b>")
+    file.write_text(as_yaml(Document("mine", tree)), encoding="utf-8")
+    upload = visit.page.locator("input[type=file]")
+    upload.set_input_files(file)
+    expect(visit.page.locator('[data-field="name"]')).to_have_value("<b>mine</b>")
+    visit.solved()
+    large = tmp_path / "large.yaml"
+    large.write_bytes(b"#" * (MOST_BYTES + 1))
+    upload.set_input_files(large)
+    expect(visit.page.get_by_text("1 MB at most")).to_be_visible()
+
+
+def test_two_people_do_not_see_each_other(visit: Visit, browser: Browser, url: str) -> None:
+    visit.enter("name", "secret")
+    other = Visit(browser, url)
+    assert other.page.locator('[data-field="name"]').input_value() != "secret"
+    assert "secret" not in other.page.content()
+    other.close()
+    visit.page.reload()
+    expect(visit.page.locator('[data-field="name"]')).to_have_value("secret")
+    visit.solved()
+
+
+def test_an_error_would_be_noticed(browser: Browser, url: str) -> None:
+    visit = Visit(browser, url)
+    visit.page.evaluate("setTimeout(() => nowhere(), 0)")
+    visit.page.wait_for_timeout(300)
+    assert any("nowhere" in text for text in visit.said)
+    visit.close()
