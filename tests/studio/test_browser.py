@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import os
 import re
 import shutil
 import subprocess
@@ -27,7 +28,11 @@ PATIENCE = 30_000  # ms
 def url() -> Generator[str]:
     """Return the address of a studio that runs as people start it."""
     command = [sys.executable, "-c", START, "studio", "--no-browser"]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as server:
+    # NiceGUI does not listen where it believes that it is itself under test.
+    here = {name: value for name, value in os.environ.items() if not name.startswith(("PYTEST", "NICEGUI"))}
+    with subprocess.Popen(
+        command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=here
+    ) as server:
         assert server.stdout is not None
         try:
             yield server.stdout.readline().split()[1]
@@ -84,7 +89,7 @@ class Visit:
 
     def take(self, label: str) -> Download:
         with self.page.expect_download() as download:
-            self.page.get_by_role("button", name="Download").click()
+            self.page.get_by_role("button", name="Download", exact=True).click()
             self.page.get_by_text(label, exact=True).click()
         return download.value
 

@@ -17,7 +17,8 @@ from catenaria.line.source import Mark, Source, format_path
 
 _MOST_VALUES: Final = 1_000_000  # aliases of aliases write billions of values in a few lines
 _PLAIN_TAGS = frozenset(
-    f"tag:yaml.org,2002:{kind}" for kind in ("null", "bool", "int", "float", "str", "timestamp")
+    f"tag:yaml.org,2002:{kind}"
+    for kind in ("null", "bool", "int", "float", "str", "timestamp", "seq", "map")
 )
 
 
@@ -163,6 +164,8 @@ class _Builder:
     def _data(self, node: Node, path: Path) -> object:
         self._count(node)
         self.values[path] = _mark(node)
+        if not self._is_plain(node, path):
+            return None
         if node.id == "scalar":
             return self._scalar(node, path)
         if id(node) in self.open:
@@ -216,11 +219,14 @@ class _Builder:
                 for key_node, item in self._pairs(source, path):
                     yield str(key_node.value), item
 
-    def _scalar(self, node: Node, path: Path) -> object:
+    def _is_plain(self, node: Node, path: Path) -> bool:
         tag = str(node.tag)
         if tag not in _PLAIN_TAGS:
             self._fault(node, path, f"the tag {tag}", "plain YAML without tags of its own")
-            return None
+        return tag in _PLAIN_TAGS
+
+    def _scalar(self, node: Node, path: Path) -> object:
+        tag = str(node.tag)
         if tag.endswith("timestamp"):
             return str(node.value)
         try:
