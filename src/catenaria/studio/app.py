@@ -152,7 +152,7 @@ def serve(document: Document, where: Address, browser: bool) -> None:
     hosts = _OWN | {where.host} if is_loopback(where.host) else frozenset[str]()
     app.add_middleware(Guard, hosts=hosts, most=MOST_BYTES)
     app.storage.max_tab_storage_age = _FORGOTTEN
-    run: Any = ui.run  # its annotations are not complete
+    run: Any = ui.run  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType]
     run(
         root_page(document),
         host=where.host,

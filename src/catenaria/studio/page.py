@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import threading
 from collections.abc import Callable
 from functools import partial
 from typing import Any, Final
@@ -17,8 +18,10 @@ from catenaria.studio.downloads import EXPORTS, Download
 from catenaria.studio.editor import Editor
 from catenaria.studio.panels import Panels
 from catenaria.studio.replay import Replay
-from catenaria.studio.solve import LatestWins, Outcome, solved
+from catenaria.studio.solve import LatestWins, Outcome, outcomes
 from catenaria.studio.state import Session
+
+_DRAWN: Final = 1.0  # s, after which the audit no longer waits for the figures
 
 _FILES: Final = (
     ("save-droppers", "Droppers, CSV", downloads.droppers_csv),
@@ -34,7 +37,7 @@ class Page:
         self._session = session
         self._client = ui.context.client
         self._loop = asyncio.get_running_loop()
-        self._worker = LatestWins(solved, self._deliver)
+        self._worker = LatestWins(outcomes, self._deliver)
         self._dark = ui.dark_mode(False)
         with ui.header().classes("top"):
             self._header()
@@ -106,15 +109,27 @@ class Page:
         self._worker.submit(self._session.document)
 
     def _deliver(self, outcome: Outcome) -> None:
-        if not self._loop.is_closed():  # as it is when the server has ended meanwhile
-            self._loop.call_soon_threadsafe(self._show, outcome)
-
-    def _show(self, outcome: Outcome) -> None:
-        if outcome.document is not self._session.document or self._client.is_deleted:
+        """Show an outcome, and let the thread that found it wait: its audit would slow the drawing down."""
+        if self._loop.is_closed():  # as it is when the server has ended meanwhile
             return
-        self._session.take(outcome)
-        with self._client:
-            self._editor.mark(outcome.faults, outcome.message)
+        shown = threading.Event()
+        self._loop.call_soon_threadsafe(self._show, outcome, shown)
+        shown.wait(_DRAWN)
+
+    def _show(self, outcome: Outcome, shown: threading.Event) -> None:
+        try:
+            if outcome.document is self._session.document and not self._client.is_deleted:
+                self._session.take(outcome)
+                with self._client:
+                    self._fill(outcome)
+        finally:
+            shown.set()
+
+    def _fill(self, outcome: Outcome) -> None:
+        self._editor.mark(outcome.faults, outcome.message)
+        if outcome.audited:
+            self._panels.complete()
+        else:
             self._panels.refresh()
         self._show_state()
 
@@ -145,11 +160,12 @@ class Page:
 
     async def _save(self, make: Callable[[FormResult], Download]) -> None:
         outcome = self._session.outcome
-        if outcome is None or outcome.result is None or outcome.document is not self._session.document:
+        form = outcome.result if outcome is not None and outcome.audited else None
+        if outcome is None or form is None or outcome.document is not self._session.document:
             ui.notify("There is no form of this line to download.", type="warning")
             return
         try:
-            file = await run.io_bound(make, outcome.result)
+            file = await run.io_bound(make, form)
         except CatenariaError as error:
             ui.notify(str(error), type="negative", multi_line=True)
             return
@@ -163,6 +179,8 @@ def _said(session: Session) -> str:
         return "solving …"
     if outcome.result is None:
         return "not solved: shown is the last form" if session.form is not None else "not solved"
+    if not outcome.audited:
+        return f"found in {1e3 * outcome.seconds:.0f} ms, audit …"
     ruled = [check.verdict for check in outcome.checks if check.rule]
     audit = "audit passed" if outcome.result.audit.passed else "AUDIT FAILED"
     fails = ruled.count("fails")

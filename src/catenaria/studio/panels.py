@@ -15,6 +15,7 @@ from catenaria.studio.state import Session
 from catenaria.studio.tables import Shown
 
 TABS = ("form", "tension", "droppers", "supports", "checks", "compare", "replay")
+_LATE = ("checks",)  # they show what follows the form
 
 
 class Panels:
@@ -51,9 +52,15 @@ class Panels:
         self._drawn.clear()
         self._draw()
 
+    def complete(self) -> None:
+        """Draw what follows the form: its audit and checks."""
+        self._drawn.difference_update(_LATE)
+        self._draw()
+
     def _draw(self) -> None:
         name, form = str(self._tabs.value or "form"), self._session.form
-        if name in self._drawn or name == "replay" or form is None:
+        late = name in _LATE and not self._session.audited
+        if name in self._drawn or name == "replay" or form is None or late:
             return
         self._drawn.add(name)
         draw: dict[str, Callable[[FormResult], None]] = {

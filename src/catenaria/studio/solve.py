@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import logging
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from time import perf_counter
-from typing import Generic, TypeVar
+from typing import Final, Generic, TypeVar
 
 from catenaria import workflow
 from catenaria.errors import CatenariaError, Fault, LineFileError
@@ -15,6 +16,9 @@ from catenaria.line.load import model_from
 from catenaria.report.checks import Check
 from catenaria.results import FormResult
 from catenaria.studio.documents import Document
+from catenaria.studio.limits import refuse_long_waits
+
+_LOG: Final = logging.getLogger(__name__)
 
 Item = TypeVar("Item")
 Answer = TypeVar("Answer")
@@ -29,7 +33,9 @@ class Outcome:
     document : Document
         What was solved.
     result : FormResult, optional
-        Its form, with an audit and without a rebuild.
+        Its form, without a rebuild.
+    audited : bool
+        Whether the form has its audit and checks, which follow it.
     checks : tuple of Check
         By rules of standards and practice.
     faults : tuple of Fault
@@ -37,31 +43,49 @@ class Outcome:
     message : str
         Why there is no form, if nothing is wrong with any one field.
     seconds : float
-        Time it took.
+        Time it took so far.
     """
 
     document: Document
     result: FormResult | None = None
+    audited: bool = False
     checks: tuple[Check, ...] = ()
     faults: tuple[Fault, ...] = ()
     message: str = ""
     seconds: float = 0.0
 
 
-def solved(document: Document) -> Outcome:
-    """Solve a document by the direct method, and say what is wrong if it cannot be solved."""
+def outcomes(document: Document) -> Iterator[Outcome]:
+    """Solve a document by the direct method: yield its form, then the form with audit and checks.
+
+    There is one outcome only, with what is wrong, of a document that cannot be solved.
+    """
     begin = perf_counter()
     try:
         line = model_from(document.tree, Line, document.name)
-        result = workflow.solve(line, rebuild="none")
+        refuse_long_waits(line)
+        form = workflow.find(line)
+        taken = perf_counter() - begin
+        yield Outcome(document, form, seconds=taken)
+        begin = perf_counter() - taken  # meanwhile the form was drawn
+        result = workflow.audited(form)
         checks = workflow.check_result(result)
+        yield Outcome(document, result, True, checks, seconds=perf_counter() - begin)
     except LineFileError as error:
-        return Outcome(document, faults=error.faults, seconds=perf_counter() - begin)
+        yield Outcome(document, faults=error.faults, seconds=perf_counter() - begin)
     except CatenariaError as error:
-        return Outcome(document, message=str(error), seconds=perf_counter() - begin)
+        yield Outcome(document, message=str(error), seconds=perf_counter() - begin)
     except MemoryError:
-        return Outcome(document, message="There is not enough memory for this. Try: fewer elements")
-    return Outcome(document, result, checks, seconds=perf_counter() - begin)
+        yield Outcome(document, message="There is not enough memory for this. Try: fewer elements")
+    except Exception as error:
+        _LOG.exception("an edit of a line made the studio fail")
+        yield Outcome(document, message=f"This is a mistake of catenaria, please report it: {error!r}")
+
+
+def solved(document: Document) -> Outcome:
+    """Return the last of the outcomes of a document."""
+    *_, last = outcomes(document)
+    return last
 
 
 class LatestWins(Generic[Item, Answer]):
@@ -70,12 +94,12 @@ class LatestWins(Generic[Item, Answer]):
     Parameters
     ----------
     work : callable
-        Called in a thread of its own, for one item at a time.
+        Called in a thread of its own, for one item at a time; yields one answer after the other.
     deliver : callable
-        Called in that thread with the answer to the latest item.
+        Called in that thread with each answer to the latest item.
     """
 
-    def __init__(self, work: Callable[[Item], Answer], deliver: Callable[[Answer], None]) -> None:
+    def __init__(self, work: Callable[[Item], Iterator[Answer]], deliver: Callable[[Answer], None]) -> None:
         self._work = work
         self._deliver = deliver
         self._lock = threading.Lock()
@@ -95,10 +119,11 @@ class LatestWins(Generic[Item, Answer]):
         finished = False
         try:
             while (item := self._next()) is not None:
-                answer = self._work(item)
-                with self._lock:
-                    overtaken = bool(self._waiting)
-                if not overtaken:
+                for answer in self._work(item):
+                    with self._lock:
+                        overtaken = bool(self._waiting)
+                    if overtaken:
+                        break
                     self._deliver(answer)
             finished = True
         finally:

@@ -24,6 +24,8 @@ class Session:
         Of the document, or of an earlier one while that is solved.
     form : FormResult, optional
         The latest form that was found: it stays while the document is faulty.
+    audited : bool
+        Whether that form has its audit and its checks.
     checks : tuple of Check
         Of that form.
     pinned : FormResult, optional
@@ -35,6 +37,7 @@ class Session:
     document: Document
     outcome: Outcome | None = None
     form: FormResult | None = None
+    audited: bool = False
     checks: tuple[Check, ...] = ()
     before: FormResult | None = None
     pinned: FormResult | None = None
@@ -45,7 +48,7 @@ class Session:
         """Begin with another line; what was found for the one before is forgotten."""
         self.document = document
         self.outcome = self.form = self.before = self.pinned = None
-        self.checks = ()
+        self.checks, self.audited = (), False
         self._done, self._undone = [], []
 
     def edit(self, tree: Tree) -> bool:
@@ -85,7 +88,7 @@ class Session:
         self.outcome = outcome
         if outcome.result is not None:
             self.before = self.before if again else self.form  # the same once more is no variant
-            self.form, self.checks = outcome.result, outcome.checks
+            self.form, self.checks, self.audited = outcome.result, outcome.checks, outcome.audited
 
     def pin(self) -> None:
         """Keep the latest form to compare others with."""

@@ -19,7 +19,7 @@ from catenaria.workflow.methods import METHODS, NEGLECTS
 from catenaria.workflow.replay import replay
 from catenaria.workflow.report import check_result, report, write_report
 from catenaria.workflow.rounding import rounding, write_rounding
-from catenaria.workflow.solve import Rebuild, solve
+from catenaria.workflow.solve import Rebuild, audited, find, solve
 from catenaria.workflow.solve_structure import solve_structure
 from catenaria.workflow.tolerance import tolerances, write_tolerances
 from catenaria.workflow.validate import CaseProgress, ValidatedCase, validate
@@ -42,11 +42,13 @@ __all__ = [
     "Row",
     "ValidatedCase",
     "adjust",
+    "audited",
     "check_result",
     "compare",
     "elasticity",
     "elasticity_as",
     "export",
+    "find",
     "formats_of",
     "replay",
     "report",

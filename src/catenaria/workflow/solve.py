@@ -68,17 +68,47 @@ def solve(
         line = load_line(line)
     if mesh is not None:
         line = with_mesh(line, mesh)
-    refuse_for_method(line, method, spatial=method in SPATIAL)
-    if progress is not None and need_compiling():
-        progress(Progress("compiling", 1, 3))
-        warm_up()
-    result = METHODS[method](progress).find_form(line, start)
-    result = replace(result, audit=audit_result(result))
+    result = audited(find(line, method, start, progress))
     if rebuild == "none" or result.physics != "bending":
         return result
     if progress is not None:
         progress(Progress("rebuild", 3, 3, elapsed=perf_counter() - begin))
     return _rebuilt(line, result, rebuild)
+
+
+def find(
+    line: Line, method: str = "direct", start: FormResult | None = None, progress: Listener | None = None
+) -> FormResult:
+    """Find the form of a line, and no more: what `solve` begins with, for those who cannot wait for its audit.
+
+    Parameters
+    ----------
+    line : Line
+        The line.
+    method, start, progress
+        As of `solve`.
+
+    Returns
+    -------
+    FormResult
+        Without audit and rebuild.
+
+    Raises
+    ------
+    UnsupportedError, NotConvergedError
+        As `solve`.
+    """
+    refuse_choice(method, "none")
+    refuse_for_method(line, method, spatial=method in SPATIAL)
+    if progress is not None and need_compiling():
+        progress(Progress("compiling", 1, 3))
+        warm_up()
+    return METHODS[method](progress).find_form(line, start)
+
+
+def audited(result: FormResult) -> FormResult:
+    """Return a result with its audit."""
+    return replace(result, audit=audit_result(result))
 
 
 def refuse_choice(method: str, rebuild: str) -> None:
