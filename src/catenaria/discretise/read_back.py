@@ -49,7 +49,9 @@ def profile(chain: Chain, z: FloatArray, on_track: OnTrack | None = None) -> Pro
     point = chain.evaluate(z, s)
     size = np.linalg.norm(point.r1, axis=1)
     N = chain.section.EA * 0.5 * (size**2 - 1.0)
-    kappa = 0.5 * (_curvature(point) + _curvature(chain.evaluate(z, s, _element_before(chain, s))))
+    kappa = _curvature(point)
+    before = _curvature(chain.evaluate(z, chain.knots, _element_before(chain)))
+    kappa[::_SAMPLES] = 0.5 * (kappa[::_SAMPLES] + before)
     x, y, up = point.r.T.copy()
     chainage, lateral, height, along = x, y, up, point.r1[:, 0]
     if on_track is not None:
@@ -66,9 +68,9 @@ def _curvature(point: Points) -> FloatArray:
     return np.linalg.norm(np.cross(point.r1, point.r2), axis=1) / np.linalg.norm(point.r1, axis=1) ** 3
 
 
-def _element_before(chain: Chain, s: FloatArray) -> IntArray:
-    """Return the element of each point, at a node the one before it: r'' jumps there."""
-    return np.clip(np.searchsorted(chain.knots, s, side="left") - 1, 0, chain.knots.size - 2)
+def _element_before(chain: Chain) -> IntArray:
+    """Return the element before each node, where r'' jumps."""
+    return np.maximum(np.arange(chain.knots.size) - 1, 0)
 
 
 def element_tension(chain: Chain, z: FloatArray) -> FloatArray:

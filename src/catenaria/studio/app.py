@@ -161,4 +161,5 @@ def serve(document: Document, where: Address, browser: bool) -> None:
         show=browser,
         reload=False,
         show_welcome_message=False,
+        ws_per_message_deflate=not is_loopback(where.host),  # takes longer than sending to oneself
     )
