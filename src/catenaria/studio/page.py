@@ -56,13 +56,7 @@ class Page:
         ui.select(dict(EXAMPLES), label="example", on_change=self._choose).props(
             "dense options-dense"
         ).classes("chooser").mark("example")
-        ui.upload(
-            label="line file",
-            auto_upload=True,
-            max_file_size=MOST_BYTES,
-            on_upload=self._take,
-            on_rejected=lambda: ui.notify(f"Refused: {MOST_BYTES / 1e6:g} MB at most", type="negative"),
-        ).props('accept=".yaml,.yml,.json" flat dense').classes("upload").mark("upload")
+        self._opener()
         self._undo = _button("undo", "undo", lambda: self._back(self._session.undo))
         self._redo = _button("redo", "redo", lambda: self._back(self._session.redo))
         self._pin = _button("push_pin", "pin this variant", self._toggle_pin)
@@ -70,6 +64,18 @@ class Page:
             self._items()
         _button("dark_mode", "light or dark", self._toggle_dark)
         self._status = ui.label("").classes("status").mark("status")
+
+    def _opener(self) -> None:
+        """A button in the place of the large element that takes files."""
+        taker = ui.upload(
+            auto_upload=True,
+            max_file_size=MOST_BYTES,
+            on_upload=self._take,
+            on_rejected=lambda: ui.notify(f"Refused: {MOST_BYTES / 1e6:g} MB at most", type="negative"),
+        )
+        taker.props('accept=".yaml,.yml,.json"').classes("taker").mark("upload")
+        button = ui.button("Open", icon="folder_open").props("flat dense no-caps").mark("open")
+        button.on("click", js_handler=f"() => getElement({taker.id}).pickFiles()")
 
     def _items(self) -> None:
         ui.menu_item("Line file, YAML", on_click=self._save_line).mark("save-line")

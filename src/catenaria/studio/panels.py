@@ -17,6 +17,10 @@ from catenaria.studio.tables import Shown
 TABS = ("form", "tension", "droppers", "supports", "checks", "compare", "replay")
 _LATE = ("checks",)  # they show what follows the form
 
+_VERDICT = """<q-td :props="props">
+  <q-badge :label="props.value" :color="{passes: 'positive', fails: 'negative'}[props.value] || 'grey-7'" />
+</q-td>"""
+
 
 class Panels:
     """What is shown of one session; only the open tab is drawn."""
@@ -132,6 +136,8 @@ class Panels:
                 if table.rows:
                     if title:
                         ui.label(title).classes("heading")
-                    ui.table(columns=table.columns, rows=table.rows, row_key="id").props(
+                    listing = ui.table(columns=table.columns, rows=table.rows, row_key="id").props(
                         "dense flat wrap-cells :pagination='{rowsPerPage: 0}' hide-pagination"
-                    ).classes("listing").mark(f"table-{name}")
+                    )
+                    listing.add_slot("body-cell-verdict", _VERDICT)
+                    listing.classes("listing").mark(f"table-{name}")

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from catenaria.report.checks import Check
+from catenaria.report.html.study_tables import limit, value
 from catenaria.report.html.table import Table
 from catenaria.report.html.tables import arm_table, dropper_tables, support_table, wire_table
 from catenaria.results import FormResult
@@ -61,20 +62,20 @@ def arms(result: FormResult) -> Shown:
 
 def checks(found: tuple[Check, ...]) -> Shown:
     """Return the checks with value, limit and verdict."""
-    names = ("verdict", "check", "value", "limit", "where", "by", "note")
     rows = [
         {
             "verdict": check.verdict if check.rule else "stated",
             "check": check.name,
-            "value": "" if check.value is None else f"{check.value:.4g} {check.unit}",
-            "limit": "" if check.limit is None else f"{check.bound} {check.limit:.4g} {check.unit}",
+            "value": value(check),
+            "limit": limit(check),
             "where": check.place,
-            "by": check.source,
+            "rule": check.source,
             "note": check.why,
         }
         for check in found
     ]
-    return Shown([_column(name, name, False) for name in names], _keyed(rows))
+    names = ("verdict", "check", "value", "limit", "where", "rule", "note")
+    return Shown([_column(name, name, name in ("value", "limit")) for name in names], _keyed(rows))
 
 
 def _shown(table: Table) -> Shown:
