@@ -75,7 +75,7 @@ class Page:
         )
         taker.props('accept=".yaml,.yml,.json"').classes("taker").mark("upload")
         button = ui.button("Open", icon="folder_open").props("flat dense no-caps").mark("open")
-        button.on("click", js_handler=f"() => getElement({taker.id}).pickFiles()")
+        button.on("click", js_handler=f"() => getElement({taker.id}).$refs.qRef.pickFiles()")
 
     def _items(self) -> None:
         ui.menu_item("Line file, YAML", on_click=self._save_line).mark("save-line")
