@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
@@ -10,7 +11,7 @@ import pytest
 
 from catenaria import workflow
 from catenaria.studio.documents import Document, example, replaced
-from catenaria.studio.solve import LatestWins, Outcome, solved
+from catenaria.studio.solve import LatestWins, Outcome, outcomes, solved
 from catenaria.validation import example_file
 
 LONG = 20.0  # s
@@ -23,6 +24,32 @@ def test_it_is_what_the_command_finds(outcome: Outcome) -> None:
     assert outcome.result.audit.passed
     assert outcome.checks == workflow.check_result(found)
     assert outcome.seconds > 0.0
+
+
+def test_the_form_comes_before_its_audit(paper: Document) -> None:
+    first, second = outcomes(paper)
+    assert not first.audited
+    assert first.checks == ()
+    assert second.audited
+    assert first.result is not None
+    assert second.result is not None
+    assert not first.result.audit.name
+    assert second.result.audit.name
+    assert second.result.droppers is first.result.droppers
+    assert second.seconds > first.seconds > 0.0
+
+
+def test_a_mistake_of_the_program_is_said_and_logged(
+    paper: Document, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    def mistaken(line: object) -> None:
+        raise ZeroDivisionError("nobody foresaw this")
+
+    monkeypatch.setattr(workflow, "find", mistaken)
+    (outcome,) = outcomes(paper)
+    assert "nobody foresaw this" in outcome.message
+    assert "report it" in outcome.message
+    assert caplog.records[-1].exc_info is not None
 
 
 def test_faults_are_those_of_the_line_file(paper: Document) -> None:
@@ -59,12 +86,12 @@ class Slow:
         self.may_go_on = threading.Semaphore(0)
         self.changed = threading.Condition()
 
-    def work(self, item: int) -> int:
+    def work(self, item: int) -> Iterator[int]:
         with self.changed:
             self.begun.append(item)
             self.changed.notify_all()
         assert self.may_go_on.acquire(timeout=LONG)
-        return item
+        yield item
 
     def deliver(self, answer: int) -> None:
         with self.changed:
@@ -94,11 +121,28 @@ def test_the_latest_edit_wins() -> None:
     assert slow.answers == [4, 5]
 
 
+def test_what_is_overtaken_between_two_answers_ends_there() -> None:
+    slow = Slow()
+
+    def work(item: int) -> Iterator[int]:
+        yield from slow.work(item)
+        yield from slow.work(-item)
+
+    worker = LatestWins(work, slow.deliver)
+    worker.submit(1)
+    slow.may_go_on.release()
+    slow.wait(begun=2, answers=1)
+    worker.submit(2)
+    slow.may_go_on.release(3)
+    slow.wait(begun=4, answers=3)
+    assert (slow.begun, slow.answers) == ([1, -1, 2, -2], [1, 2, -2])
+
+
 @pytest.mark.filterwarnings("ignore::pytest.PytestUnhandledThreadExceptionWarning")
 def test_an_error_that_nobody_foresaw_does_not_end_the_work() -> None:
     slow = Slow()
 
-    def work(item: int) -> int:
+    def work(item: int) -> Iterator[int]:
         if item < 0:
             raise ZeroDivisionError
         return slow.work(item)

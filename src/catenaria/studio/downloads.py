@@ -43,6 +43,21 @@ def report_page(result: FormResult) -> Download:
     return Download("report.html", workflow.report(result).encode())
 
 
+def report_pdf(result: FormResult) -> Download:
+    """Return the report as it is printed.
+
+    Raises
+    ------
+    UnsupportedError
+        If this computer has no browser that prints.
+    NotConvergedError
+        If the browser fails.
+    """
+    with TemporaryDirectory(prefix="catenaria-studio-") as folder:
+        files = workflow.write_report(workflow.report(result), Path(folder) / "report.html", pdf=True)
+        return Download(files[1].name, files[1].read_bytes())
+
+
 def result_folder(result: FormResult) -> Download:
     """Return everything that `catenaria solve --report` writes, after the rebuild that it does.
 

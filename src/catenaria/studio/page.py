@@ -26,6 +26,7 @@ _DRAWN: Final = 1.0  # s, after which the audit no longer waits for the figures
 _FILES: Final = (
     ("save-droppers", "Droppers, CSV", downloads.droppers_csv),
     ("save-report", "Report, HTML", downloads.report_page),
+    ("save-pdf", "Report, PDF", downloads.report_pdf),
     ("save-result", "Result folder, ZIP", downloads.result_folder),
 )
 
@@ -170,11 +171,14 @@ class Page:
         if outcome is None or form is None or outcome.document is not self._session.document:
             ui.notify("There is no form of this line to download.", type="warning")
             return
+        waiting = ui.notification("The file is being made …", spinner=True, timeout=None)
         try:
             file = await run.io_bound(make, form)
         except CatenariaError as error:
-            ui.notify(str(error), type="negative", multi_line=True)
+            ui.notify(str(error), type="negative", multi_line=True, timeout=0, close_button=True)
             return
+        finally:
+            waiting.dismiss()
         if file is not None:  # None: the server is being shut down
             ui.download(file.content, file.name)
 
