@@ -189,8 +189,7 @@ class _System:
     def _support(self, pole: _Pole) -> Document:
         contact: Document = {"height": self.height}
         if pole.registration is not None:
-            side = {"side": "right"} if pole.registration == "push-off" else {}
-            arm = {"length": 1.1, "mass": 1.2, "clamp_mass": 0.3, "registration": pole.registration, **side}
+            arm = {"length": 1.1, "mass": 1.2, "clamp_mass": 0.3, "registration": pole.registration}
             contact |= {"kind": "steady arm", "arm": arm}
         return {
             "stagger": round(pole.stagger, 4),

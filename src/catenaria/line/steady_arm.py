@@ -42,15 +42,15 @@ class SteadyArm(LineModel):
     registration: Literal["pull-off", "push-off"] = Field(
         default="pull-off",
         description=(
-            "pull-off: the arm pulls the wire away from the middle of the track. push-off: the arm reaches "
-            "across from the other side."
+            "pull-off: the arm is hinged on the side of the mast. push-off: it is hinged on a drop bracket "
+            "that reaches across the wire."
         ),
     )
     side: Side | None = Field(
         default=None,
         description=(
-            "On which side of the wire the hinge is. If left out, that of the stagger for pull-off, the "
-            "opposite one for push-off; needed where the stagger is 0."
+            "On which side of the wire the hinge is. If left out, that of the stagger, where the arm of a "
+            "straight track is in tension; needed where the stagger is 0."
         ),
     )
     hinge: Hinge | None = Field(
@@ -92,14 +92,13 @@ class SteadyArm(LineModel):
 
         Examples
         --------
-        >>> [SteadyArm(length=1.2, registration=r).hinge_side(0.2) for r in ("pull-off", "push-off")]
-        [1.0, -1.0]
+        >>> [SteadyArm(length=1.2).hinge_side(stagger) for stagger in (0.2, -0.2, 0.0)]
+        [1.0, -1.0, 0.0]
         """
         if self.side is not None:
             return SIGN[self.side]
         away = self.hinge.stagger - stagger if self.hinge is not None else stagger
-        sign = float(away > 0.0) - float(away < 0.0)
-        return -sign if self.hinge is None and self.registration == "push-off" else sign
+        return float(away > 0.0) - float(away < 0.0)
 
 
 def arm_problems(arm: SteadyArm, stagger: float, height: float) -> Iterator[Problem]:

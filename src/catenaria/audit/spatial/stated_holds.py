@@ -175,7 +175,7 @@ def _arm(support: dict[str, Any], beside: float) -> StatedArm | None:
     elif hinge is not None:
         side = float(np.sign(hinge["stagger"] - stagger))
     else:
-        side = float(np.sign(stagger)) * (1.0 if arm["registration"] == "pull-off" else -1.0)
+        side = float(np.sign(stagger))
     place = _NOWHERE if hinge is None else (hinge["stagger"] + beside, hinge["height"])
     wanted = 0.0 if arm["minimum_pull"] is None else arm["minimum_pull"]
     return StatedArm(arm["length"], arm["mass"], arm["registration"], side, place, wanted)

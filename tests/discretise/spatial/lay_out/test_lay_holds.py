@@ -93,9 +93,9 @@ def test_an_arm_and_its_properties(tree: Tree, laid: Lay) -> None:
     [
         (0.2, {"registration": "pull-off"}, 1.0),
         (-0.2, {"registration": "pull-off"}, -1.0),
-        (0.2, {"registration": "push-off"}, -1.0),
-        (-0.2, {"registration": "push-off"}, 1.0),
-        (-0.2, {"registration": "push-off", "side": "right"}, -1.0),
+        (0.2, {"registration": "push-off"}, 1.0),
+        (-0.2, {"registration": "push-off"}, -1.0),
+        (-0.2, {"registration": "push-off", "side": "left"}, 1.0),
         (0.0, {"side": "left"}, 1.0),
         (0.0, {"hinge": {"stagger": -0.99, "height": 5.6}}, -1.0),
     ],
