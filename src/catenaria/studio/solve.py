@@ -15,10 +15,10 @@ from catenaria.line import Line
 from catenaria.line.load import model_from
 from catenaria.report.checks import Check
 from catenaria.results import FormResult
-from catenaria.studio.documents import Document
+from catenaria.studio.documents import Document, placed
 from catenaria.studio.limits import refuse_long_waits
 
-_LOG: Final = logging.getLogger(__name__)
+_logger: Final = logging.getLogger(__name__)
 
 Item = TypeVar("Item")
 Answer = TypeVar("Answer")
@@ -72,13 +72,13 @@ def outcomes(document: Document) -> Iterator[Outcome]:
         checks = workflow.check_result(result)
         yield Outcome(document, result, True, checks, seconds=perf_counter() - begin)
     except LineFileError as error:
-        yield Outcome(document, faults=error.faults, seconds=perf_counter() - begin)
+        yield Outcome(document, faults=placed(document, error.faults), seconds=perf_counter() - begin)
     except CatenariaError as error:
         yield Outcome(document, message=str(error), seconds=perf_counter() - begin)
     except MemoryError:
         yield Outcome(document, message="There is not enough memory for this. Try: fewer elements")
     except Exception as error:
-        _LOG.exception("an edit of a line made the studio fail")
+        _logger.exception("an edit of a line made the studio fail")
         yield Outcome(document, message=f"This is a mistake of catenaria, please report it: {error!r}")
 
 

@@ -79,7 +79,7 @@ def solve(
 def find(
     line: Line, method: str = "direct", start: FormResult | None = None, progress: Listener | None = None
 ) -> FormResult:
-    """Find the form of a line, and no more: what `solve` begins with, for those who cannot wait for its audit.
+    """Find the form of a line, and no more, for those who cannot wait for the audit that `solve` adds.
 
     Parameters
     ----------
