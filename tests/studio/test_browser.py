@@ -10,6 +10,7 @@ import subprocess
 import sys
 from collections.abc import Generator
 from pathlib import Path
+from urllib.parse import urlsplit
 
 import pytest
 from playwright.sync_api import Browser, Download, Error, Page, expect, sync_playwright
@@ -138,7 +139,7 @@ def test_an_editing_tour(visit: Visit) -> None:
     visit.solved()
     expect(page.get_by_text('found "60 kg"')).to_have_count(0)
 
-    line = load_line(visit_file(visit.take("Line file, YAML")))
+    line = load_line(visit_file(visit.take("Line file")))
     tree = replaced(example("simple_60m").tree, ("supports", 3, "stagger"), -0.15)
     tree = replaced(tree, ("spans", 2, "pre_sag_per_mille"), 0.8)
     assert line == model_from(tree, Line)
@@ -163,6 +164,25 @@ def test_the_replay_reaches_the_form(visit: Visit) -> None:
     expect(page.get_by_text("dropper force error 0.0")).to_be_visible(timeout=120_000)
 
 
+@pytest.mark.slow
+def test_a_line_in_space_is_replayed(visit: Visit, tmp_path: Path) -> None:
+    page, tree = visit.page, example("stitched_re250").tree
+    tree |= {"spans": tree["spans"][:2], "supports": tree["supports"][:3]}
+    file = tmp_path / "short.yaml"
+    file.write_text(as_yaml(Document("short", tree)), encoding="utf-8")
+    page.locator("input[type=file]").set_input_files(file)
+    expect(page.locator('[data-field="name"]')).to_have_value("stitched line, Re 250")
+    visit.solved()
+    visit.tab("Replay")
+    page.get_by_role("button", name="Move it").click()
+    expect(page.get_by_text("s of simulated time after")).to_be_visible(timeout=60_000)
+    expect(page.get_by_text(re.compile(r"line, [\d.]+ s · .* of gravity · tension error"))).to_be_visible(
+        timeout=60_000
+    )
+    expect(page.locator(".panel .js-plotly-plot .main-svg:first-child")).to_have_count(3)
+    expect(page.get_by_text("· at rest")).to_be_visible(timeout=60_000)
+
+
 def test_an_uploaded_line_is_solved_and_a_large_file_is_not(visit: Visit, tmp_path: Path) -> None:
     file = tmp_path / "mine.yaml"
     tree = replaced(example("yang2017_three_span").tree, ("name",), "<b>mine</b>")
@@ -175,6 +195,49 @@ def test_an_uploaded_line_is_solved_and_a_large_file_is_not(visit: Visit, tmp_pa
     large.write_bytes(b"#" * (MOST_BYTES + 1))
     upload.set_input_files(large)
     expect(visit.page.get_by_text("1 MB at most")).to_be_visible()
+
+
+def test_a_file_is_edited_as_text_and_keeps_what_was_written(visit: Visit, tmp_path: Path) -> None:
+    page, asked = visit.page, set[str]()
+    page.on("request", lambda request: asked.add(urlsplit(request.url).hostname or ""))
+    file = tmp_path / "mine.yaml"
+    paper = example("yang2017_three_span")
+    text = "# by me\n" + paper.text.replace("Yang et al. 2017, three spans", "mine")
+    file.write_text(text, encoding="utf-8")
+    page.locator("input[type=file]").set_input_files(file)
+    expect(page.locator('[data-field="name"]')).to_have_value("mine")
+    visit.solved()
+    visit.tab("File")
+    editor = page.locator(".cm-content")
+    expect(editor).to_contain_text("# by me")
+    expect(editor.locator("span").filter(has_text="# by me").first).to_be_visible()  # YAML in colours
+
+    editor.click()
+    page.keyboard.press("Control+Home")
+    page.keyboard.type("# typed\nwrong: 1\nspeed: 200 km/h\n")
+    page.keyboard.press("Control+Enter")
+    expect(page.locator('[data-field="speed"]')).to_have_value("200")
+    fault = page.get_by_role("button", name="2:8 wrong: found")
+    expect(fault).to_be_visible()
+    fault.click()
+    page.keyboard.press("Home")
+    page.keyboard.press("Shift+ArrowDown")
+    page.keyboard.press("Delete")
+    expect(editor).not_to_contain_text("wrong: 1")
+    page.get_by_role("button", name="Apply").click()
+    visit.solved()
+    expect(fault).to_have_count(0)
+    visit.enter("spans[2].length", "64.5")
+    visit.solved()
+    expect(editor).to_contain_text("# typed")
+
+    download = visit.take("Line file")
+    assert download.suggested_filename == "mine.yaml"
+    mine = paper.rewritten("# typed\nspeed: 200 km/h\n" + text)
+    taken = Path(download.path()).read_text(encoding="utf-8")
+    assert taken == mine.edited(replaced(mine.tree, ("spans", 2, "length"), "64.5 m")).text
+    assert set(taken.splitlines()) > set(text.splitlines()) - {"  - *span"}
+    assert asked <= {"127.0.0.1"}
 
 
 def test_two_people_do_not_see_each_other(visit: Visit, browser: Browser, url: str) -> None:

@@ -16,6 +16,7 @@ from catenaria.report.tables import write_tables
 from catenaria.results import FormResult, load_result
 from catenaria.studio import downloads
 from catenaria.studio.documents import Document, uploaded
+from catenaria.validation import example_file
 
 
 def test_droppers_are_those_of_the_command(form: FormResult, tmp_path: Path) -> None:
@@ -27,7 +28,11 @@ def test_droppers_are_those_of_the_command(form: FormResult, tmp_path: Path) -> 
 
 def test_the_line_file_is_the_line(paper: Document) -> None:
     file = downloads.line_file(paper)
-    assert uploaded(file.name, file.content).tree == paper.tree
+    assert file.name == "yang2017_three_span.yaml"
+    assert file.content == example_file(file.name).read_bytes()
+    faulty = downloads.line_file(paper.edited(paper.tree | {"speed": "fast"}))
+    assert faulty.content == file.content + b"speed: fast\n"
+    assert uploaded(faulty.name, faulty.content).tree["speed"] == "fast"
 
 
 def test_the_folder_holds_the_result(form: FormResult, tmp_path: Path) -> None:

@@ -50,7 +50,7 @@ def test_droppers_are_a_list_with_or_without_units() -> None:
     spans = {"spans": [{"droppers": {"first": "4 m", "spacing": 6.5, "count": 3}}]}
     assert shown(DROPPERS, spans) == "4, 10.5, 17"
     tree = entered(DROPPERS, spans, "4; 10, 1500 cm")
-    assert tree == {"spans": [{"droppers": {"positions": [4.0, 10.0, "1500 cm"]}}]}
+    assert tree == {"spans": [{"droppers": {"positions": ["4 m", "10 m", "1500 cm"]}}]}
     assert shown(DROPPERS, tree) == "4, 10, 15"
     assert entered(DROPPERS, {"spans": [{"length": 60, "droppers": {"positions": [4]}}]}, "") == {
         "spans": [{"length": 60}]

@@ -33,6 +33,19 @@ def test_what_changes_nothing_is_no_edit() -> None:
     assert not session.can_undo
 
 
+def test_a_text_is_one_step() -> None:
+    session = Session(ONE.rewritten("name: one  # first\n"))
+    assert session.rewrite(session.document.rewritten("name: one  # second\n"))
+    assert session.edit({"name": "edited"})
+    assert session.document.text == "name: edited  # second\n"
+    session.undo()
+    session.undo()
+    assert session.document.text == "name: one  # first\n"
+    assert not session.can_undo
+    assert not session.rewrite(session.document.rewritten(session.document.text))
+    assert not session.can_undo
+
+
 def test_two_sessions_share_nothing() -> None:
     first, second = Session(ONE), Session(ONE)
     first.edit({"name": "changed"})

@@ -6,11 +6,12 @@ import asyncio
 from collections.abc import Awaitable, Callable
 from typing import Any
 
+from nicegui import ui
 from nicegui.testing.user import User
 from nicegui.testing.user_simulation import user_simulation
 
 from catenaria.studio.app import root_page
-from catenaria.studio.documents import Document
+from catenaria.studio.documents import Document, example
 
 Story = Callable[[User], Awaitable[None]]
 TICKS = 300  # of 0.1 s
@@ -88,6 +89,98 @@ def test_numbers_follow_an_edit(paper: Document) -> None:
     play(paper, story)
 
 
+def told(user: User) -> list[str]:
+    """Return the faults that the tab of the file lists."""
+    buttons = sorted(user.find(kind=ui.button).elements, key=lambda element: element.id)
+    return [str(button.text) for button in buttons if "found" in button.text]
+
+
+async def applied(user: User, text: str) -> None:
+    one(user, "file-text").value = text
+    user.find(marker="apply").click()
+    await asyncio.sleep(0.2)
+    await solved(user)
+
+
+def test_the_file_is_edited_as_text(paper: Document) -> None:
+    async def story(user: User) -> None:
+        one(user, "tabs").value = "file"
+        editor = one(user, "file-text")
+        assert editor.value == paper.text
+        await applied(user, "# mine\n" + paper.text.replace("length: 65 m", "length: 66 m"))
+        assert "audit passed" in status(user)
+        assert one(user, "spans[2].length").value == "66"
+        await enter(user, "spans[1].length", "67")
+        assert "    length: 66 m\n" in editor.value
+        assert "  - length: 67 m\n" in editor.value
+        assert editor.value.startswith("# mine\n# A three-span")
+        user.find(marker="undo").click()
+        user.find(marker="undo").click()
+        await solved(user)
+        assert editor.value == paper.text
+        assert one(user, "spans[2].length").value == "65"
+
+    play(paper, story)
+
+
+def test_what_is_wrong_with_a_text_is_told_by_line_and_column(paper: Document) -> None:
+    async def story(user: User) -> None:
+        one(user, "tabs").value = "file"
+        editor = one(user, "file-text")
+        await applied(user, "a: [\n" + paper.text)
+        assert told(user)[0].startswith("17:5 the file: found a YAML error")
+        assert "audit passed" in status(user)  # the line is what it was
+        assert one(user, "apply").enabled
+        await applied(user, "speed: fast\n" + paper.text.replace("65 m\n", "65 kg\n"))
+        assert [text.split(":")[:2] for text in told(user)] == [
+            ["1", "8 speed"],
+            ["72", "13 spans[0].length"],
+        ]
+        assert status(user) == "not solved: shown is the last form"
+        assert not one(user, "apply").enabled
+        assert one(user, "speed").value == "fast"
+        await enter(user, "speed", "")
+        assert editor.value.startswith("# A three-span")
+        assert told(user)[0].startswith("71:13 spans[0].length")
+
+    play(paper, story)
+
+
+def test_what_was_typed_stays_until_it_is_given_up(paper: Document) -> None:
+    async def story(user: User) -> None:
+        one(user, "tabs").value = "file"
+        said = one(user, "file-said")
+        one(user, "file-text").value = typed = "# typed\n" + paper.text
+        assert said.text == "Changed, not applied yet."
+        await enter(user, "name", "other")
+        assert one(user, "file-text").value == typed
+        assert "edited elsewhere" in said.text
+        await user.open("/")
+        await solved(user)
+        one(user, "tabs").value = "file"
+        assert one(user, "file-text").value == typed
+        assert "edited elsewhere" in one(user, "file-said").text
+        user.find(marker="take-text").click()
+        await until(lambda: "name: other\n" in one(user, "file-text").value)
+        assert "# typed" not in one(user, "file-text").value
+        await user.should_not_see(marker="take-text")
+
+    play(paper, story)
+
+
+def test_line_breaks_of_other_systems_stay(paper: Document) -> None:
+    text = paper.text.replace("\n", "\r\n")
+
+    async def story(user: User) -> None:
+        one(user, "tabs").value = "file"
+        assert one(user, "file-text").value == paper.text
+        await applied(user, "# mine\n" + paper.text)
+        user.find(marker="save-line").click()
+        assert (await user.download.next()).content == b"# mine\r\n" + text.encode()
+
+    play(paper.rewritten(text), story)
+
+
 def test_two_people_do_not_see_each_other(paper: Document) -> None:
     async def run() -> None:
         async with user_simulation(root_page(paper)) as first:
@@ -104,3 +197,34 @@ def test_two_people_do_not_see_each_other(paper: Document) -> None:
             assert one(first, "name").value == "secret"
 
     asyncio.run(run())
+
+
+def test_a_replay_can_be_stopped_and_begun_again() -> None:
+    async def story(user: User) -> None:
+        said = one(user, "replayed")
+        user.find(marker="move").click()
+        await until(lambda: "steps" in said.text)
+        assert "s of computing: line, " in said.text
+        assert "dead bands" in said.text
+        user.find(marker="stop").click()
+        await until(lambda: said.text.startswith("Stopped after "))
+        assert one(user, "move").enabled
+        assert not one(user, "play").enabled
+        tree = example("simple_60m").tree
+        await enter(user, "name", tree["name"] + " again")
+        assert said.text.startswith("The dynamic method")
+
+    play(example("simple_60m"), story)
+
+
+def test_a_replay_plays_to_its_end(paper: Document) -> None:
+    async def story(user: User) -> None:
+        user.find(marker="move").click()
+        slider = one(user, "frame")
+        await until(lambda: one(user, "play").enabled)
+        slider.value = 195  # of 200
+        await until(lambda: one(user, "replayed").text.endswith("at rest"))
+        assert slider.value == 199
+        assert one(user, "replayed").text.startswith("2 of 2: messenger wire, ")
+
+    play(paper, story)

@@ -44,7 +44,8 @@ class DynamicEquilibrium:
     listener : callable, optional
         Is told after every time step how far the motion is.
     filmed : callable, optional
-        Receives a film of each step of a plane line when the step is over.
+        Receives a film of each step when the step is over: of a plane line one of the contact wire and one of
+        the messenger wire; of a line in space one of all wires for each decision which droppers hang slack.
     frames : int
         How many states a film has at most.
     """
@@ -77,7 +78,7 @@ class DynamicEquilibrium:
             If the schedule cannot be built.
         """
         if not line.plane:
-            return find_by_motion(line, self.listener, start)
+            return find_by_motion(line, self.listener, start, self.filmed, self.frames)
         begin = perf_counter()
         contact = self._step(line, contact_wire_setup(line), 1, start, begin)
         below = _rest(contact).clamped

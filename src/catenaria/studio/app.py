@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ipaddress
 import socket
+import sys
 from collections.abc import Callable
 from dataclasses import dataclass
 from importlib.resources import files
@@ -14,6 +15,7 @@ from catenaria.studio.documents import MOST_BYTES, Document
 from catenaria.studio.state import Session
 
 _OWN = frozenset({"localhost", "127.0.0.1", "::1"})
+_SHARE = 1e-3  # s that a computation has before pages are served again
 _FORGOTTEN = 12 * 3600.0  # s after which a page that is loaded again begins anew
 
 
@@ -152,6 +154,7 @@ def serve(document: Document, where: Address, browser: bool) -> None:
     hosts = _OWN | {where.host} if is_loopback(where.host) else frozenset[str]()
     app.add_middleware(Guard, hosts=hosts, most=MOST_BYTES)
     app.storage.max_tab_storage_age = _FORGOTTEN
+    sys.setswitchinterval(_SHARE)
     run: Any = ui.run  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType]
     run(
         root_page(document),

@@ -1,11 +1,13 @@
-"""Line documents: what stands in a line file, as plain data that edits never change in place."""
+"""Line documents: what a line file says, as plain data that edits never change in place, and its text."""
 
 from __future__ import annotations
 
 import io
+import json
 import re
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
 from pathlib import Path as FilePath
 from tempfile import TemporaryDirectory
 from typing import Any, Final, cast
@@ -15,6 +17,9 @@ from ruamel.yaml import YAML
 from catenaria.errors import Fault, InconsistentInputError, LineFileError
 from catenaria.line.base import Path
 from catenaria.line.reading import read_tree
+from catenaria.line.source import Source, format_path
+from catenaria.studio.text import merged
+from catenaria.studio.tree_diff import same
 from catenaria.validation import example_file
 
 Tree = dict[str, Any]
@@ -34,6 +39,17 @@ EXAMPLES: Final[Mapping[str, str]] = {
 }
 
 
+_SUFFIXES: Final = (".yaml", ".yml", ".json")
+
+
+@dataclass(frozen=True)
+class Written:
+    """A text, and what it says."""
+
+    text: str
+    tree: Tree
+
+
 @dataclass(frozen=True)
 class Document:
     """A line as it would stand in its file, right or wrong.
@@ -44,10 +60,46 @@ class Document:
         For files that are made of it.
     tree : dict
         Dictionaries, lists, texts and numbers; whoever wants another one makes it with `replaced`.
+    written : Written, optional
+        The file that it came from.
+    suffix : str
+        Of that file: ``.json`` means JSON, any other YAML.
     """
 
     name: str
     tree: Tree
+    written: Written | None = None
+    suffix: str = ".yaml"
+
+    @property
+    def file(self) -> str:
+        """Name of the line file."""
+        return self.name + self.suffix
+
+    @cached_property
+    def text(self) -> str:
+        """The line file: that which it came from, changed where the line was edited."""
+        if self.written is not None and same(self.written.tree, self.tree):
+            return self.written.text
+        if self.suffix == ".json":
+            return json.dumps(self.tree, indent=2, ensure_ascii=False) + "\n"
+        text = merged(self.written.text, self.written.tree, self.tree) if self.written else None
+        return as_yaml(self) if text is None else text
+
+    def edited(self, tree: Tree) -> Document:
+        """Return it with other contents."""
+        return replace(self, tree=tree)
+
+    def rewritten(self, text: str) -> Document:
+        """Return it with another text.
+
+        Raises
+        ------
+        LineFileError
+            If that is no mapping in YAML, or JSON.
+        """
+        tree, _ = _read(text, self.name, self.suffix)
+        return replace(self, tree=tree, written=Written(text, tree))
 
 
 def open_document(path: FilePath) -> Document:
@@ -58,11 +110,8 @@ def open_document(path: FilePath) -> Document:
     LineFileError
         If it is no mapping in YAML or JSON.
     """
-    tree, _ = read_tree(path)
-    if not isinstance(tree, dict):
-        fault = Fault(str(path), 1, 1, "the file", "something else", "a mapping with the fields of a line")
-        raise LineFileError((fault,))
-    return Document(path.stem, cast("Tree", tree))
+    tree, _ = _mapping(path)
+    return Document(path.stem, tree, Written(path.read_bytes().decode("utf-8-sig"), tree), path.suffix)
 
 
 def example(name: str) -> Document:
@@ -97,12 +146,45 @@ def uploaded(name: str, data: bytes) -> Document:
         raise InconsistentInputError(
             f"{name} has {len(data) / 1e6:.1f} MB; allowed: a line file of {MOST_BYTES / 1e6:g} MB at most"
         )
-    json = name.lower().endswith(".json")
+    stem, suffix = plain_name(FilePath(name).stem), FilePath(name).suffix.lower()
+    suffix = suffix if suffix in _SUFFIXES else ".yaml"
+    tree, _ = _read(data, stem, suffix)
+    return Document(stem, tree, Written(data.decode("utf-8-sig"), tree), suffix)
+
+
+def placed(document: Document, faults: Sequence[Fault]) -> tuple[Fault, ...]:
+    """Return faults of a document with line and column in its text: of the value, or of what lacks it."""
+    _, source = _read(document.text, document.name, document.suffix)
+    marks = {format_path(path): mark for path, mark in source.values.items()}
+    found: list[Fault] = []
+    for fault in faults:
+        field = fault.field
+        while field not in marks:
+            field = field[: max(field.rfind("."), field.rfind("["), 0)] or format_path(())
+        line, column = marks[field]
+        found.append(replace(fault, line=line, column=column))
+    return tuple(sorted(found, key=lambda fault: (fault.line, fault.column)))
+
+
+def _read(text: str | bytes, name: str, suffix: str) -> tuple[Tree, Source]:
+    """Read a file that lies nowhere; faults call it by its name."""
     with TemporaryDirectory(prefix="catenaria-studio-") as folder:
-        file = FilePath(folder) / ("line.json" if json else "line.yaml")
+        file = FilePath(folder) / f"line{suffix}"
+        data = text if isinstance(text, bytes) else text.encode(errors="surrogatepass")
         file.write_bytes(data)
-        document = open_document(file)
-    return Document(plain_name(FilePath(name).stem), document.tree)
+        try:
+            return _mapping(file)
+        except LineFileError as error:
+            faults = tuple(replace(fault, file=name + suffix) for fault in error.faults)
+            raise LineFileError(faults) from error
+
+
+def _mapping(path: FilePath) -> tuple[Tree, Source]:
+    tree, source = read_tree(path)
+    if not isinstance(tree, dict):
+        fault = Fault(str(path), 1, 1, "the file", "something else", "a mapping with the fields of a line")
+        raise LineFileError((fault,))
+    return cast("Tree", tree), source
 
 
 def plain_name(text: str) -> str:

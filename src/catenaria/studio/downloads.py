@@ -15,7 +15,7 @@ from catenaria.errors import InconsistentInputError
 from catenaria.line import Line
 from catenaria.report.tables import TABLES, write_csv
 from catenaria.results import FormResult
-from catenaria.studio.documents import Document, as_yaml, plain_name
+from catenaria.studio.documents import Document, plain_name
 
 
 @dataclass(frozen=True)
@@ -27,8 +27,8 @@ class Download:
 
 
 def line_file(document: Document) -> Download:
-    """Return the line file, right or wrong."""
-    return Download("line.yaml", as_yaml(document).encode())
+    """Return the line file, right or wrong, as it was written where it was not edited."""
+    return Download(document.file, document.text.encode())
 
 
 def droppers_csv(result: FormResult) -> Download:

@@ -84,15 +84,17 @@ def entered(field: Field, tree: Tree, text: str) -> Tree:
     --------
     >>> entered(Field(("stagger",), "stagger", "mm"), {}, "-200")
     {'stagger': '-200 mm'}
+    >>> entered(Field(("length",), "length", "m"), {"length": "65 m"}, "60")
+    {'length': '60 m'}
     >>> entered(Field(("stagger",), "stagger", "mm"), {}, "0.2 m")
     {'stagger': '0.2 m'}
     """
-    text = text.strip()
+    text, old = text.strip(), value_at(tree, field.path)
     if not text:
         return replaced(tree, field.path, None)
     if field.instead is not None and value_at(tree, field.instead) is not None:
         tree = replaced(tree, field.instead, None)
-    return replaced(tree, field.path, _read(field, text))
+    return replaced(tree, field.path, _read(field, text, _says_unit(old)))
 
 
 def message(field: Field, faults: Sequence[Fault]) -> str:
@@ -134,22 +136,31 @@ def _positions_shown(field: Field, value: object) -> str:
     return ", ".join(_shown(position, field.unit) for position in positions)
 
 
-def _read(field: Field, text: str) -> object:
+def _says_unit(value: object) -> bool:
+    """Return whether a quantity, or any in it, is written with its unit."""
+    if isinstance(value, dict):
+        return any(map(_says_unit, cast("dict[object, object]", value).values()))
+    if isinstance(value, list):
+        return any(map(_says_unit, cast("list[object]", value)))
+    return isinstance(value, str)
+
+
+def _read(field: Field, text: str, says_unit: bool) -> object:
     if field.kind == "positions":
-        return {"positions": [_value(item, field.unit) for item in _items(text)]}
+        return {"positions": [_value(item, field.unit, says_unit) for item in _items(text)]}
     if field.kind == "list" and len(_items(text)) > 1:
-        return [_value(item, field.unit) for item in _items(text)]
+        return [_value(item, field.unit, says_unit) for item in _items(text)]
     if field.kind == "number":
         return float(text) if _NUMBER.fullmatch(text) else text
-    return _value(text, field.unit)
+    return _value(text, field.unit, says_unit)
 
 
 def _items(text: str) -> list[str]:
     return [item for item in re.split(r"\s*[,;]\s*", text) if item]
 
 
-def _value(text: str, unit: str) -> object:
-    """Return what the line file shall hold: metres as numbers, other numbers with their unit."""
+def _value(text: str, unit: str, says_unit: bool) -> object:
+    """Return what the line file shall hold: metres as numbers unless it says them, others with their unit."""
     if not unit or not _NUMBER.fullmatch(text):
         return text
-    return float(text) if unit == "m" else f"{text} {unit}"
+    return float(text) if unit == "m" and not says_unit else f"{text} {unit}"

@@ -16,11 +16,13 @@ from catenaria.studio import downloads
 from catenaria.studio.documents import EXAMPLES, MOST_BYTES, Document, example, uploaded
 from catenaria.studio.downloads import EXPORTS, Download
 from catenaria.studio.editor import Editor
+from catenaria.studio.file_tab import FileTab
 from catenaria.studio.panels import Panels
 from catenaria.studio.replay import Replay
 from catenaria.studio.solve import LatestWins, Outcome, outcomes
 from catenaria.studio.state import Session
 
+_AHEAD: Final = 0.03  # s between figures and what is said of them
 _DRAWN: Final = 1.0  # s, after which the audit no longer waits for the figures
 
 _FILES: Final = (
@@ -49,6 +51,9 @@ class Page:
                 self._panels = Panels(session)
                 with self._panels.place("replay"):
                     self._replay = Replay(session)
+                with self._panels.place("file"):
+                    self._file = FileTab(session, partial(self._panels.is_open, "file"), self._rewrite)
+                self._panels.when_opened(self._file.refresh)
         self._show_state()
         self._solve()
 
@@ -79,7 +84,7 @@ class Page:
         button.on("click", js_handler=f"() => getElement({taker.id}).$refs.qRef.pickFiles()")
 
     def _items(self) -> None:
-        ui.menu_item("Line file, YAML", on_click=self._save_line).mark("save-line")
+        ui.menu_item("Line file", on_click=self._save_line).mark("save-line")
         for mark, label, make in _FILES:
             _item(label, mark, partial(self._save, make))
         ui.separator()
@@ -105,6 +110,11 @@ class Page:
         self._editor.rebuild()
         self._solve()
 
+    def _rewrite(self, document: Document) -> None:
+        if self._session.rewrite(document):
+            self._editor.refresh()
+            self._solve()
+
     def _back(self, step: Callable[[], None]) -> None:
         step()
         self._editor.refresh()
@@ -114,6 +124,7 @@ class Page:
         self._show_state()
         self._replay.reset()
         self._worker.submit(self._session.document)
+        self._file.refresh()
 
     def _deliver(self, outcome: Outcome) -> None:
         """Show an outcome, and let the thread that found it wait: its audit would slow the drawing down."""
@@ -124,21 +135,25 @@ class Page:
         shown.wait(_DRAWN)
 
     def _show(self, outcome: Outcome, shown: threading.Event) -> None:
-        try:
-            if outcome.document is self._session.document and not self._client.is_deleted:
-                self._session.take(outcome)
-                with self._client:
-                    self._fill(outcome)
-        finally:
+        """Draw the open tab; what is said of the outcome follows figures that go ahead of it."""
+        if self._is_over(outcome):
             shown.set()
+            return
+        self._session.take(outcome)
+        with self._client:
+            ahead = self._panels.complete() if outcome.audited else self._panels.refresh()
+        self._loop.call_later(_AHEAD if ahead else 0.0, self._tell, outcome, shown)
 
-    def _fill(self, outcome: Outcome) -> None:
-        self._editor.mark(outcome.faults, outcome.message)
-        if outcome.audited:
-            self._panels.complete()
-        else:
-            self._panels.refresh()
-        self._show_state()
+    def _tell(self, outcome: Outcome, shown: threading.Event) -> None:
+        if not self._is_over(outcome):
+            with self._client:
+                self._editor.mark(outcome.faults, outcome.message)
+                self._file.mark(outcome.faults, outcome.message)
+                self._show_state()
+        shown.set()
+
+    def _is_over(self, outcome: Outcome) -> bool:
+        return outcome.document is not self._session.document or self._client.is_deleted
 
     def _show_state(self) -> None:
         session = self._session
@@ -158,6 +173,7 @@ class Page:
     def _toggle_dark(self) -> None:
         self._dark.toggle()
         self._panels.dark = self._replay.dark = bool(self._dark.value)
+        self._file.set_dark(bool(self._dark.value))
         self._replay.redraw()
         self._panels.refresh()
 

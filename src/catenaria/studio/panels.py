@@ -10,11 +10,13 @@ from nicegui import ui
 from catenaria.results import FormResult
 from catenaria.studio import tables
 from catenaria.studio.compare import differences
+from catenaria.studio.figure import LiveFigure
 from catenaria.studio.plots import Figure, difference_plots, plan_plot, profile_plot, tension_plots
 from catenaria.studio.state import Session
 from catenaria.studio.tables import Shown
 
-TABS = ("form", "tension", "droppers", "supports", "checks", "compare", "replay")
+TABS = ("form", "tension", "droppers", "supports", "checks", "compare", "replay", "file")
+_APART = ("replay", "file")  # they draw themselves
 _LATE = ("checks",)  # they show what follows the form
 
 _VERDICT = """<q-td :props="props">
@@ -38,36 +40,54 @@ class Panels:
             for name in TABS:
                 with ui.tab_panel(name):
                     self._places[name] = ui.column().classes("panel")
-        self._tabs.on_value_change(lambda: self._draw())
+        self._tabs.on_value_change(self._open)
 
     def place(self, name: str) -> Any:
         """Return where a tab's contents go."""
         return self._places[name]
 
+    def is_open(self, name: str) -> bool:
+        """Return whether a tab is the one that is seen."""
+        return self._tabs.value == name
+
+    def when_opened(self, act: Callable[[], None]) -> None:
+        """Call something whenever another tab is opened."""
+        self._tabs.on_value_change(lambda: act())
+
     def clear(self) -> None:
         """Show nothing of the line before."""
         self._drawn.clear()
         for name, place in self._places.items():
-            if name != "replay":
+            if name not in _APART:
                 place.clear()
 
-    def refresh(self) -> None:
-        """Draw the open tab anew, and the others when they are opened."""
+    def refresh(self) -> bool:
+        """Draw the open tab anew, and the others when they are opened; return whether that goes ahead."""
         self._drawn.clear()
-        self._draw()
+        return self._draw()
 
-    def complete(self) -> None:
+    def complete(self) -> bool:
         """Draw what follows the form: its audit and checks."""
         self._drawn.difference_update(_LATE)
-        self._draw()
+        return self._draw()
 
-    def _draw(self) -> None:
-        name, form = str(self._tabs.value or "form"), self._session.form
+    def _open(self) -> None:
+        """Draw a tab that was not seen, whose figures the browser makes anew from what they were made of."""
+        self._draw()
+        for figure in self._live(self._name):
+            figure.update()
+
+    @property
+    def _name(self) -> str:
+        return str(self._tabs.value or "form")
+
+    def _draw(self) -> bool:
+        name, form = self._name, self._session.form
         late = name in _LATE and not self._session.audited
-        if name in self._drawn or name == "replay" or form is None or late:
-            return
+        if name in self._drawn or name in _APART or form is None or late:
+            return False
         self._drawn.add(name)
-        draw: dict[str, Callable[[FormResult], None]] = {
+        draw: dict[str, Callable[[FormResult], bool]] = {
             "form": self._form,
             "tension": self._tension,
             "droppers": self._droppers,
@@ -75,37 +95,40 @@ class Panels:
             "checks": self._checks,
             "compare": self._compare,
         }
-        draw[name](form)
+        return draw[name](form)
 
-    def _form(self, form: FormResult) -> None:
+    def _form(self, form: FormResult) -> bool:
         pinned = self._session.pinned
-        self._figures("form", [profile_plot(form, pinned, self.dark), plan_plot(form, pinned, self.dark)])
+        return self._figures(
+            "form", [profile_plot(form, pinned, self.dark), plan_plot(form, pinned, self.dark)]
+        )
 
-    def _tension(self, form: FormResult) -> None:
-        self._figures("tension", [*tension_plots(form, self.dark)])
+    def _tension(self, form: FormResult) -> bool:
+        return self._figures("tension", [*tension_plots(form, self.dark)])
 
-    def _droppers(self, form: FormResult) -> None:
-        self._tables("droppers", [("", tables.schedule(form, self._session.pinned))])
+    def _droppers(self, form: FormResult) -> bool:
+        return self._tables("droppers", [("", tables.schedule(form, self._session.pinned))])
 
-    def _supports(self, form: FormResult) -> None:
+    def _supports(self, form: FormResult) -> bool:
         shown = [("Wires", tables.wires(form)), ("Supports", tables.supports(form))]
-        self._tables("supports", [*shown, ("Steady arms", tables.arms(form))])
+        return self._tables("supports", [*shown, ("Steady arms", tables.arms(form))])
 
-    def _checks(self, form: FormResult) -> None:
+    def _checks(self, form: FormResult) -> bool:
         self._tables("checks", [("Rules of standards and practice", tables.checks(self._session.checks))])
         with self._places["checks"]:
             for line in (*form.audit.lines(), *form.audit.findings):
                 ui.label(line).classes("audit")
             ui.label("No rebuild while editing: the result folder has it.").classes("quiet")
+        return False
 
-    def _compare(self, form: FormResult) -> None:
+    def _compare(self, form: FormResult) -> bool:
         variant = self._session.pinned or self._session.before
         place = self._places["compare"]
         place.clear()
         if variant is None:
             with place:
                 ui.label("Nothing to compare with yet: edit something, or pin this variant.")
-            return
+            return False
         found = differences(form, variant)
         most = max((abs(value) for value in found.cut_length.tolist()), default=0.0)
         self._figures("compare", [*difference_plots(form, variant, self.dark)])
@@ -113,22 +136,25 @@ class Panels:
         with place:
             said = ui.label(f"Against {against}: droppers differ by up to {most:.2f} mm.")
         said.classes("quiet").mark("compared")
+        return False
 
-    def _figures(self, name: str, figures: list[Figure | None]) -> None:
+    def _live(self, name: str) -> list[LiveFigure]:
+        children = self._places[name].default_slot.children
+        return [child for child in children if isinstance(child, LiveFigure)]
+
+    def _figures(self, name: str, figures: list[Figure | None]) -> bool:
         """Put new data into the figures that are there, or make new ones."""
         place, wanted = self._places[name], [figure for figure in figures if figure is not None]
-        there = [child for child in place.default_slot.children if isinstance(child, ui.plotly)]
-        if len(there) == len(wanted) and len(place.default_slot.children) == len(there):
-            for element, figure in zip(there, wanted, strict=True):
-                element.figure = figure
-                element.update()
-            return
+        there = self._live(name)
+        if len(there) == len(wanted) == len(place.default_slot.children):
+            return all([element.redraw(figure) for element, figure in zip(there, wanted, strict=True)])
         place.clear()
         with place:
             for figure in wanted:
-                ui.plotly(figure).classes("figure").style(f"height: {figure['layout']['height']}px")
+                LiveFigure(figure)
+        return False
 
-    def _tables(self, name: str, shown: list[tuple[str, Shown]]) -> None:
+    def _tables(self, name: str, shown: list[tuple[str, Shown]]) -> bool:
         place = self._places[name]
         place.clear()
         with place:
@@ -141,3 +167,4 @@ class Panels:
                     )
                     listing.add_slot("body-cell-verdict", _VERDICT)
                     listing.classes("listing").mark(f"table-{name}")
+        return False

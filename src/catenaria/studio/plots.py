@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from base64 import b64encode
 from typing import Any, Final
 
 import numpy as np
@@ -23,7 +24,8 @@ from catenaria.studio.palette import coloured
 
 Figure = dict[str, Any]
 
-_MOST: Final = 250  # intervals of a line that is drawn anew after every edit
+_NUMBERS: Final = {"x": "f8", "y": "f4", "customdata": "f4"}  # chainages have more digits
+_MOST: Final = 150  # intervals of a line that is drawn anew after every edit
 
 # Not "responsive": figures in a tab that is being closed would be resized, which Plotly refuses. No list of
 # all buttons either: Plotly puts objects into it, with which NiceGUI's comparison of settings does not end.
@@ -38,8 +40,25 @@ _CONFIG: Final = {
 def as_figure(one: Drawing, dark: bool) -> Figure:
     """Return what Plotly draws; zooming stays as it is while data change."""
     layout = coloured(one.layout, dark) | {"height": one.height, "uirevision": one.id, "autosize": True}
-    data = [coloured(lighter(trace), dark) for trace in one.data]
+    data = [packed(coloured(lighter(trace), dark)) for trace in one.data]
     return {"data": data, "layout": layout, "config": _CONFIG}
+
+
+def packed(trace: Trace) -> Trace:
+    """Return a trace whose numbers are written as bytes, which a browser reads and draws in half the time.
+
+    Examples
+    --------
+    >>> packed({"mode": "lines", "x": [1.0, None]})["x"]
+    {'dtype': 'f8', 'bdata': 'AAAAAAAA8D8AAAAAAAD4fw=='}
+    """
+    return trace | {key: _bytes(trace[key], kind) for key, kind in _NUMBERS.items() if key in trace}
+
+
+def _bytes(values: list[Any], kind: str) -> dict[str, str]:
+    array = np.array(values, dtype=f"<{kind}")
+    shape = {"shape": ", ".join(map(str, array.shape))} if array.ndim > 1 else {}
+    return {"dtype": kind, "bdata": b64encode(array.tobytes()).decode()} | shape
 
 
 def lighter(trace: Trace) -> Trace:
@@ -55,8 +74,7 @@ def lighter(trace: Trace) -> Trace:
     if trace.get("mode") != "lines" or len(x) <= 2 * _MOST or None in y:
         return trace
     kept: list[int] = thinned(np.asarray(x), (np.asarray(y),), _MOST).tolist()
-    long = {key: value for key, value in trace.items() if isinstance(value, list)}
-    return trace | {key: [value[i] for i in kept] for key, value in long.items()}
+    return trace | {key: [trace[key][i] for i in kept] for key in _NUMBERS if key in trace}
 
 
 def profile_plot(result: FormResult, variant: FormResult | None, dark: bool) -> Figure:

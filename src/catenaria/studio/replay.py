@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import logging
+from dataclasses import dataclass
+from time import perf_counter
 from typing import Any, Final
 
 from nicegui import run, ui
@@ -9,23 +12,65 @@ from nicegui import run, ui
 from catenaria import workflow
 from catenaria.errors import CatenariaError
 from catenaria.line import Line
+from catenaria.report.html.figures import support_places
 from catenaria.results import FormResult
 from catenaria.results.film import Film
 from catenaria.studio.documents import Document
-from catenaria.studio.replay_plots import error_figure, frame_count, frame_figure, told
+from catenaria.studio.plots import Figure
+from catenaria.studio.replay_plots import error_figure, frame_count, frame_figures, told
 from catenaria.studio.state import Session
 from catenaria.workflow import Progress
 
+_LOG: Final = logging.getLogger(__name__)
+
 _TICK: Final = 0.1  # s between two states while it plays
-_SPACE: Final = "The replay is of lines in one plane with two wires: this one lies in space."
 _READY: Final = (
-    "The dynamic method of Yang et al. 2017 moves the line from straight wires to its equilibrium: first the "
-    "contact wire on the lower cables of its droppers, then the messenger wire with the upper ones."
+    "The dynamic method of Yang et al. 2017 moves the line to its equilibrium. In one plane it begins with "
+    "straight wires without strain: first the contact wire moves on the lower cables of its droppers, then "
+    "the messenger wire with the upper ones. In space all wires move at once, from where they rest without "
+    "weight; that takes up to a minute."
 )
 
 
 class _StoppedError(Exception):
     """Nobody waits for the film any more."""
+
+
+@dataclass
+class _Work:
+    """A film that is being computed, as the page sees it.
+
+    Attributes
+    ----------
+    document : Document
+        Whose line moves.
+    began : float
+        When, by the clock of `perf_counter` [s].
+    latest : Progress, optional
+        What the method said last.
+    wanted : bool
+        Whether somebody waits for it.
+    """
+
+    document: Document
+    began: float
+    latest: Progress | None = None
+    wanted: bool = True
+
+    def told(self) -> str:
+        """Say how far it is."""
+        said, now = f"{perf_counter() - self.began:.0f} s of computing", self.latest
+        if now is None or not now.step:
+            return f"{said}: the start"
+        off = now.worst_error_in_bands
+        return (
+            f"{said}: {now.stage}, {now.time:.1f} s of simulated time after {now.step} steps; "
+            f"farthest off is {now.worst_control}, by {off:.{2 if off < 10.0 else 0}f} dead bands"
+        )
+
+
+def _icon(plays: bool) -> str:
+    return "pause" if plays else "play_arrow"
 
 
 class Replay:
@@ -41,12 +86,15 @@ class Replay:
         self.dark = False
         self._session = session
         self._films: tuple[Film, ...] = ()
+        self._supports: dict[str, float] = {}
         self._filmed: Document | None = None
-        self._latest: Progress | None = None
+        self._work: _Work | None = None
         self._client = ui.context.client
         with ui.row().classes("bar"):
             self._start = ui.button("Move it", icon="play_circle", on_click=self._make)
             self._start.props("flat no-caps").mark("move")
+            self._stop = ui.button("Stop", icon="stop_circle", on_click=self._end)
+            self._stop.props("flat no-caps").mark("stop")
             self._play = ui.button(icon="play_arrow", on_click=self._toggle)
             self._play.props('flat dense aria-label="play"').mark("play")
             self._slider = ui.slider(min=0, max=1, value=0, on_change=self.redraw).classes("slider")
@@ -54,16 +102,18 @@ class Replay:
         self._said = ui.label(_READY).classes("quiet").mark("replayed")
         self._place = ui.column().classes("panel")
         self._player = ui.timer(_TICK, self._next, active=False)
+        self._play.bind_icon_from(self._player, "active", _icon)
         self._watcher = ui.timer(0.3, self._tell, active=False)
-        self.reset()
+        self._enable()
 
     def reset(self) -> None:
         """Forget the film if the line is another one now; a computation that is under way ends by itself."""
-        if self._filmed is self._session.document:
+        filmed = self._filmed if self._work is None else self._work.document
+        if filmed is self._session.document:
             return
-        self._films, self._filmed, self._latest = (), None, None
+        self._leave()
+        self._films, self._filmed = (), None
         self._player.deactivate()
-        self._watcher.deactivate()
         self._place.clear()
         self._said.text = _READY
         self._enable()
@@ -72,9 +122,18 @@ class Replay:
         """Draw the state at which the slider is."""
         if not self._films:
             return
-        frame = int(self._slider.value or 0)
-        figures = [frame_figure(self._films, frame, self.dark), error_figure(self._films, frame, self.dark)]
-        self._said.text = told(self._films, frame)
+        frame = self._frame
+        figures = frame_figures(self._films, frame, self._supports, self.dark)
+        figures.append(error_figure(self._films, frame, self.dark))
+        if self._work is None:
+            self._said.text = told(self._films, frame)
+        self._draw(figures)
+
+    @property
+    def _frame(self) -> int:
+        return int(self._slider.value or 0)
+
+    def _draw(self, figures: list[Figure]) -> None:
         elements = list(self._place.default_slot.children)
         if elements:
             for element, figure in zip(elements, figures, strict=True):
@@ -87,72 +146,85 @@ class Replay:
                 ui.plotly(figure).classes("figure").style(f"height: {figure['layout']['height']}px")
 
     async def _make(self) -> None:
-        form, outcome = self._session.form, self._session.outcome
-        if form is None or outcome is None or outcome.result is None:
+        outcome, document = self._session.outcome, self._session.document
+        if outcome is None or outcome.result is None or outcome.document is not document:
             self._said.text = "There is no form of this line yet."
             return
-        if form.spatial:
-            self._said.text = _SPACE
-            return
-        self._filmed = outcome.document
-        self._start.disable()
+        form, work = outcome.result, _Work(document, perf_counter())
+        self._work = work
+        self._player.deactivate()
         self._watcher.activate()
-        try:
-            films = await run.io_bound(self._film, form, outcome.document)
-        except _StoppedError:
+        self._enable()
+        made = await run.io_bound(self._film, form, work)
+        if self._work is not work:  # somebody stopped it, or the line is another one
             return
-        except CatenariaError as error:
-            self._watcher.deactivate()
-            self._said.text = str(error)
-            self._filmed = None
-            self._enable()
-            return
-        if self._filmed is outcome.document and films:
-            self._show(films)
+        self._leave()
+        if isinstance(made, str):
+            self._said.text = made
+        elif made:  # nothing: the server is being shut down
+            self._show(made, support_places(form), document)
 
-    def _show(self, films: tuple[Film, ...]) -> None:
-        self._watcher.deactivate()
-        self._films = films
+    def _film(self, form: FormResult, work: _Work) -> tuple[Film, ...] | str:
+        """Return the films, or why there are none; the page reads meanwhile how far it is."""
+
+        def listen(progress: Progress) -> None:
+            if not work.wanted or self._client.is_deleted:
+                raise _StoppedError
+            work.latest = progress
+
+        try:
+            return workflow.replay(Line.model_validate(form.inputs), listen)[1]
+        except _StoppedError:
+            return ()
+        except CatenariaError as error:
+            return str(error)
+        except Exception as error:  # noqa: BLE001, told where the film would be
+            _LOG.exception("a replay made the studio fail")
+            return f"This is a mistake of catenaria, please report it: {error!r}"
+
+    def _show(self, films: tuple[Film, ...], supports: dict[str, float], document: Document) -> None:
+        self._films, self._supports, self._filmed = films, supports, document
         self._slider.props["max"] = frame_count(films) - 1
         self._slider.value = 0
         self._enable()
         self.redraw()
         self._player.activate()
 
-    def _film(self, form: FormResult, document: Document) -> tuple[Film, ...]:
-        """Compute in a thread of its own; the page reads how far it is."""
+    def _end(self) -> None:
+        """Stop the computation."""
+        if self._work is not None:
+            self._said.text = f"Stopped after {self._work.told()}."
+            self._leave()
 
-        def listen(progress: Progress) -> None:
-            if self._filmed is not document or self._client.is_deleted:
-                raise _StoppedError
-            self._latest = progress
-
-        return workflow.replay(Line.model_validate(form.inputs), listen)[1]
+    def _leave(self) -> None:
+        """Wait for no film any more; the computation ends at its next time step, if it has not yet."""
+        if self._work is not None:
+            self._work.wanted = False
+        self._work = None
+        self._watcher.deactivate()
+        self._enable()
 
     def _tell(self) -> None:
-        now = self._latest
-        if now is not None:
-            self._said.text = (
-                f"{now.stage}, {now.time:.1f} s of simulated time after {now.step} steps: "
-                f"{now.worst_control} is {now.worst_error_in_bands:.3g} dead bands off"
-            )
+        if self._work is not None:
+            self._said.text = self._work.told()
 
     def _toggle(self) -> None:
         if self._player.active:
             self._player.deactivate()
             return
-        if self._slider.value >= frame_count(self._films) - 1:
+        if self._frame >= frame_count(self._films) - 1:
             self._slider.value = 0
         self._player.activate()
 
     def _next(self) -> None:
         last = frame_count(self._films) - 1
-        if self._slider.value >= last:
+        if self._frame >= last:
             self._player.deactivate()
             return
-        self._slider.value = min(int(self._slider.value) + 1, last)
+        self._slider.value = self._frame + 1
 
     def _enable(self) -> None:
-        self._start.set_enabled(True)
+        self._start.set_enabled(self._work is None)
+        self._stop.set_visibility(self._work is not None)
         self._play.set_enabled(bool(self._films))
         self._slider.set_enabled(bool(self._films))

@@ -12,6 +12,22 @@ from catenaria.studio.solve import Outcome
 _MOST_UNDONE = 200
 
 
+@dataclass(frozen=True)
+class Draft:
+    """What stands in the editor of the file.
+
+    Attributes
+    ----------
+    text : str
+        What was typed.
+    base : str
+        The document's text that it began with.
+    """
+
+    text: str
+    base: str
+
+
 @dataclass
 class Session:
     """The state of one tab of a browser; nothing of it is shared with another.
@@ -32,6 +48,8 @@ class Session:
         The variant to compare with.
     before : FormResult, optional
         The form before the latest one.
+    draft : Draft, optional
+        Text that may not have been applied yet.
     """
 
     document: Document
@@ -41,6 +59,7 @@ class Session:
     checks: tuple[Check, ...] = ()
     before: FormResult | None = None
     pinned: FormResult | None = None
+    draft: Draft | None = None
     _done: list[Document] = field(default_factory=list[Document])
     _undone: list[Document] = field(default_factory=list[Document])
 
@@ -55,10 +74,20 @@ class Session:
         """Replace the contents of the document; return whether that changes anything."""
         if tree == self.document.tree:
             return False
+        self._change(self.document.edited(tree))
+        return True
+
+    def rewrite(self, document: Document) -> bool:
+        """Replace the text of the document; return whether that changes anything, if only a comment."""
+        if document.text == self.document.text:
+            return False
+        self._change(document)
+        return True
+
+    def _change(self, document: Document) -> None:
         self._done = [*self._done, self.document][-_MOST_UNDONE:]
         self._undone = []
-        self.document = Document(self.document.name, tree)
-        return True
+        self.document = document
 
     @property
     def can_undo(self) -> bool:

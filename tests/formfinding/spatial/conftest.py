@@ -14,6 +14,7 @@ from catenaria.formfinding.spatial.direct import find_directly
 from catenaria.formfinding.spatial.dynamic import find_by_motion
 from catenaria.line import Line
 from catenaria.results import FormResult
+from catenaria.results.film import Film
 
 PEERS = ("exudyn",)  # extra: bench
 
@@ -202,6 +203,13 @@ def curved(make: Make) -> Callable[..., Line]:
 
 
 @pytest.fixture(scope="session")
-def moved(curved: Callable[..., Line]) -> FormResult:
-    """Find the form of the stitched spans in the curve by the dynamic method; once for all tests."""
-    return find_by_motion(curved(), None)
+def filmed(curved: Callable[..., Line]) -> tuple[FormResult, list[Film]]:
+    """Find the form of the stitched spans in the curve by the dynamic method, filmed; once for all tests."""
+    films: list[Film] = []
+    return find_by_motion(curved(), None, None, films.append, 9), films
+
+
+@pytest.fixture(scope="session")
+def moved(filmed: tuple[FormResult, list[Film]]) -> FormResult:
+    """Return the form in which that motion ended."""
+    return filmed[0]

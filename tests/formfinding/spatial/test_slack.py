@@ -14,6 +14,7 @@ from catenaria.formfinding.spatial.direct import find_directly
 from catenaria.formfinding.spatial.dynamic import find_by_motion
 from catenaria.formfinding.spatial.rebuild import rebuild_in_space
 from catenaria.line import Line, load_line
+from catenaria.results.film import Film
 from catenaria.results.form import FormResult
 
 EXAMPLE = Path(__file__).parents[3] / "examples" / "yang2017_three_span.yaml"
@@ -82,13 +83,19 @@ def test_passes_its_audit_and_comes_back(found: FormResult) -> None:
 
 
 @pytest.fixture(scope="module")
-def moved() -> FormResult:
+def filmed() -> tuple[FormResult, list[Film]]:
+    films: list[Film] = []
     data = line("allowed").model_dump()
     dynamic = data["solver"]["dynamic"]
     for control in ("contact_tension", "messenger_tension"):
         dynamic[control] |= {"dead_band": 0.1, "saturation": 5.0}
     dynamic["height"] |= {"velocity": 2e-3, "dead_band": 1e-6}
-    return find_by_motion(Line.model_validate(data), None)
+    return find_by_motion(Line.model_validate(data), None, None, films.append, 5), films
+
+
+@pytest.fixture(scope="module")
+def moved(filmed: tuple[FormResult, list[Film]]) -> FormResult:
+    return filmed[0]
 
 
 def test_motion_lets_the_same_droppers_hang_slack(found: FormResult, moved: FormResult) -> None:
@@ -99,6 +106,20 @@ def test_motion_lets_the_same_droppers_hang_slack(found: FormResult, moved: Form
     np.testing.assert_allclose(moved.droppers.height, found.droppers.height, rtol=0.0, atol=1e-5)
     np.testing.assert_allclose(moved.droppers.force_bottom, found.droppers.force_bottom, rtol=0.0, atol=0.1)
     assert audit_result(moved).findings == ()
+
+
+def test_each_motion_is_filmed(filmed: tuple[FormResult, list[Film]]) -> None:
+    """The second one begins where the first one came to rest, under the whole gravity, and lifts the wire."""
+    result, (first, last) = filmed
+    assert [first.step, last.step] == [history.step for history in result.histories]
+    np.testing.assert_allclose(last.wires.height[0], first.wires.height[-1], rtol=0.0, atol=1e-12)
+    assert first.gravity[0] == 0.0
+    assert np.all(last.gravity == 1.0)
+    assert last.error.shape[1] == first.error.shape[1] - 6 == len(last.control_quantity)
+    slack, own = result.droppers.slack, slice(0, None, 2)
+    risen = last.droppers.height[-1, own] - last.droppers.height[0, own]
+    assert risen[slack].min() > 1e-3
+    assert np.abs(risen[~slack]).max() < 1e-4
 
 
 def test_the_first_rest_of_the_motion_had_droppers_that_push(moved: FormResult) -> None:

@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import replace
+from time import perf_counter
+
 import numpy as np
 from numpy.typing import NDArray
 
+from catenaria.discretise.film import some_states
 from catenaria.discretise.history import control_errors
+from catenaria.discretise.spatial.film import film_droppers, film_wires
 from catenaria.discretise.spatial.lay_out import lay_out
 from catenaria.discretise.spatial.model import FULL, SpatialModel
 from catenaria.discretise.spatial.read_supports import hold_strain_tension
@@ -16,6 +22,9 @@ from catenaria.formfinding.spatial.gather import gather
 from catenaria.formfinding.spatial.motion import MovingLine, at_start, move_line
 from catenaria.formfinding.spatial.slack import with_slack
 from catenaria.line import Line
+from catenaria.line.alignment import Alignment
+from catenaria.mechanics.loads.gravity import Ramp
+from catenaria.results.film import Film
 from catenaria.results.form import Counters, FormResult, History
 from catenaria.solvers.outcome import Solution
 
@@ -24,7 +33,13 @@ FloatArray = NDArray[np.float64]
 _BANDS = 2.0  # of heights, by which the wire of a slack dropper may be too low
 
 
-def find_by_motion(line: Line, listener: Listener | None, start: FormResult | None = None) -> FormResult:
+def find_by_motion(
+    line: Line,
+    listener: Listener | None,
+    start: FormResult | None = None,
+    filmed: Callable[[Film], None] | None = None,
+    frames: int = 100,
+) -> FormResult:
     """Find the form of a line in space by moving it until it rests.
 
     Parameters
@@ -35,6 +50,10 @@ def find_by_motion(line: Line, listener: Listener | None, start: FormResult | No
         Is told after every time step how far the motion is.
     start : FormResult, optional
         An earlier result to begin from, under full gravity, instead of the weightless line.
+    filmed : callable, optional
+        Receives a film of each motion when it is over.
+    frames : int
+        How many states a film has at most.
 
     Raises
     ------
@@ -42,6 +61,7 @@ def find_by_motion(line: Line, listener: Listener | None, start: FormResult | No
         See `catenaria.formfinding.dynamic_equilibrium.DynamicEquilibrium.find_form`.
     """
     if listener is not None:
+        listener = _timed(listener)
         listener(Progress("line", 1, 2))
     moving = at_start(lay_out(line))
     if start is not None:
@@ -49,7 +69,10 @@ def find_by_motion(line: Line, listener: Listener | None, start: FormResult | No
 
     def find(slack: NDArray[np.bool_], before: Motion[MovingLine] | None) -> Motion[MovingLine]:
         begin = moving if before is None else moving.at(before.z, slack)
-        return move_line(begin, line.solver.dynamic, listener)
+        motion = move_line(begin, line.solver.dynamic, listener)
+        if filmed is not None:
+            filmed(_film(motion, line.alignment, frames))
+        return motion
 
     motions = with_slack(
         moving.model, find, lambda motion: motion.z, _BANDS * moving.model.layout.height_law.e0
@@ -66,6 +89,12 @@ def find_by_motion(line: Line, listener: Listener | None, start: FormResult | No
         tuple(_history(motion.model, motion.solution, joints) for motion in motions),
         bands,
     )
+
+
+def _timed(listener: Listener) -> Listener:
+    """Return a listener that is told as well for how long there has been work."""
+    begin = perf_counter()
+    return lambda progress: listener(replace(progress, elapsed=perf_counter() - begin))
 
 
 def _energies(model: SpatialModel, z: FloatArray) -> FloatArray:
@@ -108,6 +137,27 @@ def _history(moving: MovingLine, solution: Solution, joint_names: tuple[str, ...
         kinetic=np.array([moving.inertia.kinetic_energy(zd) for _, _, zd in steps]),
         axial=energies[:, 0],
         bending=energies[:, 1],
+    )
+
+
+def _film(motion: Motion[MovingLine], alignment: Alignment, frames: int) -> Film:
+    """Return at most `frames` states of a motion."""
+    moving, ramp = motion.model, Ramp(motion.model.ramp_time)
+    states = some_states(motion.solution, frames)
+    unknowns, controls = [z for _, z in states], moving.controls(moving.system)
+    laid, units = moving.model.layout.wires, moving.control_units
+    return Film(
+        step=moving.name,
+        time=np.array([t for t, _ in states]),
+        gravity=np.array([ramp(t) for t, _ in states]),
+        wire=tuple(wire.name for wire in laid),
+        role=tuple(wire.role for wire in laid),
+        wires=film_wires(moving.model, alignment, unknowns),
+        droppers=film_droppers(moving.model, unknowns),
+        control_name=moving.control_names,
+        control_quantity=tuple("tension" if unit == "N" else "height" for unit in units),
+        control_unit=units,
+        error=np.array([control_errors(controls, t, z) for t, z in states]),
     )
 
 
