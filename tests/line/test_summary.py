@@ -23,6 +23,12 @@ def test_the_example_in_short(example_path: Path) -> None:
     assert table["Droppers", "in each span"] == "3 x 7"
     assert table["Prescribed", "wanted"] == "2 tensions + 21 heights"
     assert table["Prescribed", "found"] == "2 wire lengths + 21 dropper lengths"
+    assert ("Line", "speed") not in table
+
+
+def test_the_speed_is_shown_if_there_is_one(tree: dict[str, Any]) -> None:
+    tree["speed"] = "250 km/h"
+    assert flat(Line.model_validate(tree))["Line", "speed"] == "250 km/h"
 
 
 def test_the_table_follows_the_line(tree: dict[str, Any]) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import shutil
 from collections.abc import Generator
 from importlib import import_module
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -77,6 +78,44 @@ def test_an_error_would_be_noticed(browser: Any, file: Path, tmp_path: Path) -> 
     page.goto(broken.as_uri())
     assert any("nowhere" in text for text in said)
     page.close()
+
+
+@pytest.mark.parametrize("width", [360, 800, 1500])
+def test_checks_need_no_scrolling(browser: Any, file: Path, width: int) -> None:
+    watched = Watched(browser, file, width, "light")
+    for of in ("table.checks", "table.checks .chip", "table.checks tr:last-child td:last-child"):
+        right = watched.page.evaluate(f"document.querySelector('{of}').getBoundingClientRect().right")
+        assert 0 < right <= width
+    watched.page.close()
+
+
+@pytest.mark.parametrize("width", [360, 800, 1500])
+def test_names_of_supports_are_apart(browser: Any, file: Path, width: int) -> None:
+    watched = Watched(browser, file, width, "light")
+    boxes: list[list[list[float]]] = watched.page.evaluate(
+        """[...document.querySelectorAll('.figure')].map(figure =>
+        [...figure.querySelectorAll('.annotation-text')].map(text => text.getBoundingClientRect())
+        .map(box => [box.left, box.right]))"""
+    )
+    assert len(boxes) >= 11
+    for names in boxes:
+        assert len(names) > 1
+        assert all(before[1] < after[0] for before, after in pairwise(names))
+        assert names[-1][1] <= width
+    watched.page.close()
+
+
+def test_all_spans_unfold_at_once(browser: Any, file: Path) -> None:
+    watched = Watched(browser, file, 1200, "light")
+    button, folded = watched.page.locator("#droppers button"), "#droppers details:not([open])"
+    assert watched.page.locator(folded).count() == 19
+    button.click()
+    assert watched.page.locator(folded).count() == 0
+    assert button.text_content() == "Fold all"
+    button.click()
+    assert watched.page.locator(folded).count() == 19
+    assert watched.said == []
+    watched.page.close()
 
 
 def test_light_and_dark_differ_down_to_the_figures(browser: Any, file: Path) -> None:

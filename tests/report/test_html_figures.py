@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import Any
 
@@ -11,8 +12,9 @@ import pytest
 
 from catenaria.line import Line
 from catenaria.report.html import figures
-from catenaria.report.html.drawing import Drawing
+from catenaria.report.html.drawing import Drawing, layout
 from catenaria.report.html.sketch import sketch
+from catenaria.report.html.windows import windows
 from catenaria.results import FormResult
 
 COLOURS = ("contact", "messenger", "dropper", "ink", "quiet", "line", "grid", "card", "band", "band-edge")
@@ -52,10 +54,25 @@ def test_plotly_refuses_a_wrong_figure(paper: FormResult) -> None:
 def test_long_lines_are_drawn_in_parts(curve: FormResult, paper: FormResult) -> None:
     parts = figures.profile_figures(curve)
     assert len(parts) == 3  # of 904 m, at most 450 m each
-    ends = [part.layout["xaxis"]["range"] for part in parts]
-    assert [end for _, end in ends[:-1]] == [start for start, _ in ends[1:]]
     assert len({tuple(part.layout["yaxis"]["range"]) for part in parts}) == 1
     assert len(figures.profile_figures(paper)) == 1
+
+
+def test_parts_begin_and_end_at_supports(curve: FormResult) -> None:
+    parts = windows(curve)
+    supports = set(curve.supports.chainage.tolist())
+    assert [part.end for part in parts[:-1]] == [part.start for part in parts[1:]]
+    assert {part.end for part in parts[:-1]} <= supports
+    assert (parts[0].start, parts[-1].end) == figures.extent(curve)
+    assert parts[0].label == "S1 to S7, 0 m to 288 m"
+    assert len(windows(curve, math.inf)) == 1
+
+
+def test_nothing_at_the_edge_is_cut_off(curve: FormResult) -> None:
+    for part, one in zip(windows(curve), figures.profile_figures(curve), strict=True):
+        low, high = one.layout["xaxis"]["range"]
+        assert low < part.start
+        assert high > part.end
 
 
 def test_a_very_long_line_has_few_figures(make_result: Callable[[int], FormResult]) -> None:
@@ -106,6 +123,41 @@ def test_a_line_in_a_plane_has_no_plan(paper: FormResult, curve: FormResult) -> 
     assert {"contact wire", "messenger wire", "steady arm", "track"} <= names
 
 
+def test_the_contact_wire_is_drawn_on_what_is_above_it(curve: FormResult) -> None:
+    traces = figures.plan_figures(curve)[0].data
+    wires = {trace["name"]: (i, trace["line"]["width"]) for i, trace in enumerate(traces) if "line" in trace}
+    assert wires["contact wire"][0] > wires["messenger wire"][0]
+    assert wires["contact wire"][1] < wires["messenger wire"][1]
+
+
+def test_point_masses_are_marked_at_their_wires(
+    solved: Callable[[str], FormResult], curve: FormResult
+) -> None:
+    line = solved("simple_60m")
+    traces = [trace for part in figures.profile_figures(line) for trace in part.data]
+    marks = [trace for trace in traces if trace["name"] == "point mass"]
+    texts = [text for trace in marks for text in trace["text"]]
+    assert len(texts) == 2  # two insulators, but none of the clamps of the eleven arms
+    assert any("section insulator" in text and "mass 9 kg" in text for text in texts)
+    contact = line.wires[0].profile
+    at = float(np.interp(126.5, contact.chainage, contact.height))
+    assert min(marks[0]["y"]) == pytest.approx(at, abs=1e-4)
+    assert all(
+        trace["name"] != "point mass" for part in figures.profile_figures(curve) for trace in part.data
+    )
+
+
+@pytest.mark.parametrize(("supports", "named"), [(5, 5), (12, 12), (13, 7), (101, 12)])
+def test_of_many_supports_some_are_named(supports: int, named: int) -> None:
+    places = {f"S{i}": 50.0 * i for i in range(supports)}
+    shown = layout((0.0, 50.0 * supports), "height [m]", dict(reversed(places.items())))
+    names = [name["text"] for name in shown["annotations"]]
+    assert len(names) == named
+    assert names[0] == "S0"
+    assert [places[name] for name in names] == sorted(places[name] for name in names)
+    assert len(shown["shapes"]) == supports
+
+
 def test_slack_droppers_are_marked(in_space: FormResult, paper: FormResult) -> None:
     def named(result: FormResult) -> set[str]:
         return {trace["name"] for part in figures.profile_figures(result) for trace in part.data}
@@ -121,6 +173,7 @@ def test_sketch_of_every_span(solved: Callable[[str], FormResult]) -> None:
         drawn = sketch(result, line)
         assert sum(len(row.bays) for row in drawn.rows) == len(line.spans)
         assert drawn.auxiliary is auxiliary
+        assert drawn.rows[0].bays[0].count == ("5 + 10 droppers" if auxiliary else "9 droppers")
         count = sum(len(bay.droppers) + len(bay.upper_droppers) for row in drawn.rows for bay in row.bays)
         assert count == result.droppers.x.size
         assert all(0.0 <= mast.x <= drawn.width for row in drawn.rows for mast in row.masts)

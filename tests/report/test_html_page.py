@@ -20,6 +20,7 @@ from catenaria.results import FormResult
 EXAMPLES = (
     "bridge",
     "compound",
+    "curve_800m",
     "overlap",
     "simple_55m",
     "simple_60m",
@@ -92,7 +93,7 @@ def light(paper: FormResult) -> Callable[..., str]:
 @pytest.mark.parametrize("name", EXAMPLES)
 def test_every_example_line(solved: Callable[[str], FormResult], name: str) -> None:
     result = solved(name)
-    text = page(Contents(result, load_rules(), speed=200 / 3.6))
+    text = page(Contents(result, load_rules()))
     reader = read(text)
     assert len(set(reader.ids)) == len(reader.ids)
     assert set(reader.links) <= set(reader.ids)
@@ -101,6 +102,8 @@ def test_every_example_line(solved: Callable[[str], FormResult], name: str) -> N
     for wire in result.wires:
         assert wire.name in words
     assert f"{result.droppers.cut_length[-1]:.4f}" in words
+    assert "✗ fails" not in words
+    assert f"{3.6 * result.inputs['speed']:g} km/h by" in words  # the wave speed is judged
     assert "NaN" not in words
     assert "nan" not in {word.strip(".,") for word in words.split()}
 
@@ -137,6 +140,7 @@ def test_texts_of_the_line_do_not_become_code(light: Callable[..., str], paper: 
     reader = read(text)
     assert reader.scripts == 3
     assert "<script>alert" not in text
+    assert text.count("</style>") == 1  # it is at the foot of every page, too
     annotations = drawings(text)[0]["layout"]["annotations"]
     assert "&lt;script&gt;" in annotations[0]["text"]  # Plotly reads tags in texts, too
 
@@ -144,6 +148,18 @@ def test_texts_of_the_line_do_not_become_code(light: Callable[..., str], paper: 
 def test_equal_results_give_equal_pages(light: Callable[..., str]) -> None:
     assert light() == light()
     assert light(date="22 November 2026") != light()
+
+
+def test_lengths_have_a_temperature(light: Callable[..., str], paper: FormResult) -> None:
+    assert "<dd>15 °C</dd>" in light()
+    cold = replace(paper, inputs=paper.inputs | {"reference_temperature": -5.0})
+    assert "what the clamps bridge, at -5 °C" in light(cold)
+
+
+def test_every_page_on_paper_says_whose_it_is(light: Callable[..., str]) -> None:
+    assert 'content: "Yang et al. 2017, three spans, 22 November 2026, catenaria' in light(
+        date="22 November 2026"
+    )
 
 
 def test_a_date_only_if_given(light: Callable[..., str]) -> None:
@@ -176,6 +192,7 @@ def test_a_missing_library_is_named(monkeypatch: pytest.MonkeyPatch, light: Call
 def test_the_input_is_echoed(light: Callable[..., str], paper: FormResult) -> None:
     words = " ".join(read(light()).text)
     assert "force: 15000.0" in words
+    assert not re.search(r"\d\.\d{14}", words)  # digits that units leave behind
     assert paper.versions["numpy"] in words
 
 

@@ -43,6 +43,15 @@ def test_the_moment_of_printing_is_not_in_it(printed: tuple[Path, Path]) -> None
     assert set(dates) == {b"19800101"}
 
 
+def test_readers_show_an_outline(printed: tuple[Path, Path]) -> None:
+    assert b"/Outlines" in printed[1].read_bytes()
+
+
+def test_equal_pages_give_equal_prints(printed: tuple[Path, Path], tmp_path: Path) -> None:
+    _, again = write_report(printed[0].read_text(encoding="utf-8"), tmp_path / "line.html", pdf=True)
+    assert again.read_bytes() == printed[1].read_bytes()
+
+
 def test_a_browser_that_fails_leaves_nothing(
     paper: FormResult, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

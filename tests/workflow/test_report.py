@@ -9,6 +9,7 @@ import pytest
 
 from catenaria import workflow
 from catenaria.errors import InconsistentInputError, UnsupportedError
+from catenaria.loading.tolerance import Options
 from catenaria.results import FormResult, save_result
 from catenaria.results.elasticity import ElasticityStudy
 from catenaria.workflow import pdf
@@ -56,6 +57,46 @@ def test_load_cases_beside_the_result_count(folder: Path, solved: FormResult, tm
     for text in ('<section id="cases">', "cases-height", "cases-lateral", "windy"):
         assert text in page
     assert '<section id="cases">' not in workflow.report(solved)
+
+
+def test_load_cases_are_judged(folder: Path, solved: FormResult, tmp_path: Path) -> None:
+    cases = tmp_path / "cases.yaml"
+    cases.write_text(CASES.replace("20 m/s", "60 m/s"))
+    save_result(workflow.under_loads(solved, cases), folder.with_name("line-loads"))
+    check = {check.name: check for check in workflow.check_result(folder)}[
+        "lateral position under load cases"
+    ]
+    assert check.place.startswith("windy")
+    assert check.verdict == "fails"  # 65 m without steady arms
+
+
+def test_rounded_lengths_and_tolerances_beside_the_result_count(folder: Path, solved: FormResult) -> None:
+    assert '<section id="accuracy">' not in workflow.report(folder)
+    save_result(workflow.rounding(solved, [1e-3, 5e-3]), folder.with_name("line-rounding"))
+    save_result(workflow.tolerances(solved, options=Options(samples=8)), folder.with_name("line-tolerance"))
+    page = workflow.report(folder)
+    for text in (
+        "Rounded dropper lengths",
+        "Errors of installation",
+        "8 samples, nonlinear",
+        "messenger height",
+    ):
+        assert text in page
+    assert "is left out" not in page
+
+
+def test_accuracy_of_another_state_is_left_out(folder: Path, solved: FormResult) -> None:
+    rounded, scattered = (
+        workflow.rounding(solved, [1e-3]),
+        workflow.tolerances(solved, options=Options(samples=4)),
+    )
+    save_result(replace(rounded, cut_length=rounded.cut_length + 1e-4), folder.with_name("line-rounding"))
+    tension = replace(scattered.tension, nominal=scattered.tension.nominal + 1.0)
+    save_result(replace(scattered, tension=tension), folder.with_name("line-tolerance"))
+    page = workflow.report(folder)
+    assert '<section id="accuracy">' not in page
+    assert "line-rounding is left out" in page
+    assert "line-tolerance is left out" in page
 
 
 def test_a_study_of_another_line_is_left_out(folder: Path, studied: ElasticityStudy) -> None:

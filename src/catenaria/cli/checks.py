@@ -73,7 +73,7 @@ def checks(
 
 def show_checks(found: tuple[Check, ...], console: Console) -> None:
     """Show a row for each check, and below why some were not judged."""
-    from catenaria.report.html.study_tables import limit, number
+    from catenaria.report.html.study_tables import limit, value
 
     table = Table(
         title="Checks", title_justify="left", title_style="bold", box=box.SIMPLE_HEAD, padding=(0, 1, 0, 0)
@@ -90,7 +90,7 @@ def show_checks(found: tuple[Check, ...], console: Console) -> None:
     for check in judged:
         table.add_row(
             check.name,
-            number(check.value, check.unit),
+            value(check),
             limit(check),
             check.place,
             f"{check.verdict}",
@@ -102,4 +102,4 @@ def show_checks(found: tuple[Check, ...], console: Console) -> None:
             console.print(f"{check.name}: {check.why}.", soft_wrap=True)
     for check in found:
         if not check.rule:
-            console.print(f"{check.name}, {check.place}: {number(check.value, check.unit)}.", soft_wrap=True)
+            console.print(f"{check.name}, {check.place}: {value(check)}.", soft_wrap=True)

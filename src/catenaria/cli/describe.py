@@ -52,11 +52,12 @@ def schema(
 
     Example:
 
+    \b
       catenaria schema > line.schema.json
       catenaria schema --result > tables.schema.json
 
     Editors that are given the schema complete and check line files while they are written.
-    """
+    """  # noqa: D301 (\b keeps the rows of the example apart)
     if result:
         from catenaria import workflow
 

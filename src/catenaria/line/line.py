@@ -124,6 +124,17 @@ class Line(LineModel):
         refuse("Line", line_problems(self))
         return self
 
+    def __repr__(self) -> str:
+        """Say in a few lines what the line is, as ``catenaria check`` does."""
+        from catenaria.line.summary import summarise  # which needs lines itself
+
+        sections = summarise(self)
+        width = max(len(label) for _, rows in sections for label, _ in rows)
+        told = [(title, [f"  {label:{width}}  {text}" for label, text in rows]) for title, rows in sections]
+        return "\n".join(text for title, rows in told for text in (title, *rows))
+
+    __str__ = __repr__
+
     @property
     def source(self) -> Source:
         """Where in its file the parts of the line stand."""

@@ -52,6 +52,7 @@ def _line(line: Line) -> Rows:
         ("contact wire held", f"at {_held(line)}, height {_range(contact, 'm')}"),
         *_special_supports(line),
         *_staggers(line),
+        *([] if line.speed is None else [("speed", f"{3.6 * line.speed:g} km/h")]),
         ("gravity", f"{line.gravity:g} m/s^2"),
     ]
     return [("name", line.name), *rows] if line.name else rows

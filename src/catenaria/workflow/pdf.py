@@ -71,6 +71,7 @@ def print_to_pdf(page: Path, file: Path) -> Path:
             "--disable-gpu",
             "--no-first-run",
             "--no-pdf-header-footer",
+            "--generate-pdf-document-outline",
             "--virtual-time-budget=30000",
             f"--user-data-dir={profile}",
             f"--print-to-pdf={file.resolve()}",

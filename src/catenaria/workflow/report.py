@@ -3,30 +3,13 @@
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass
 from pathlib import Path
-from typing import TypeVar
 
 from catenaria.report.checks import Check, judge, load_rules
 from catenaria.report.html.page import Contents, page
 from catenaria.results import FormResult, load_result
-from catenaria.results.case import LoadStudy
-from catenaria.results.elasticity import ElasticityStudy
-from catenaria.results.store import JSON_NAME
 from catenaria.workflow.pdf import print_to_pdf
-
-Study = TypeVar("Study", ElasticityStudy, LoadStudy)
-
-_OTHER = "another state of the line, or of another method"
-
-
-@dataclass(frozen=True)
-class Studies:
-    """Studies of a result that were found beside it, and notes about those that do not belong to it."""
-
-    elasticity: ElasticityStudy | None = None
-    loads: LoadStudy | None = None
-    notes: tuple[str, ...] = ()
+from catenaria.workflow.studies import Studies, studies_beside
 
 
 def check_result(
@@ -39,7 +22,8 @@ def check_result(
     Parameters
     ----------
     source : FormResult or path
-        What was found, or the folder in which it was written; studies of elasticity beside the folder count.
+        What was found, or the folder in which it was written; studies of elasticity and of load cases
+        beside the folder count.
     speed : float, optional
         Of trains [m/s]; by default that of the line file.
     rules : path, optional
@@ -54,11 +38,11 @@ def check_result(
     --------
     >>> from catenaria import workflow
     >>> found = workflow.solve("examples/yang2017_three_span.yaml", rebuild="none")
-    >>> [check.verdict for check in workflow.check_result(found, speed=200 / 3.6)][:3]
-    ['passes', 'not judged', 'passes']
+    >>> [check.verdict for check in workflow.check_result(found, speed=200 / 3.6)][:2]
+    ['passes', 'not judged']
     """
     result, studies = _opened(source)
-    return judge(result, load_rules(_path(rules)), speed, studies.elasticity)
+    return judge(result, load_rules(_path(rules)), speed, studies.elasticity, studies.loads)
 
 
 def report(
@@ -72,8 +56,8 @@ def report(
     Parameters
     ----------
     source : FormResult or path
-        What was found, or the folder in which it was written; studies of elasticity and of load cases beside
-        the folder become part of the report.
+        What was found, or the folder in which it was written; studies of elasticity, load cases, rounded
+        lengths and tolerances beside the folder become part of the report.
     speed : float, optional
         Of trains [m/s]; by default that of the line file.
     rules : path, optional
@@ -96,6 +80,8 @@ def report(
             speed=speed,
             elasticity=studies.elasticity,
             loads=studies.loads,
+            rounding=studies.rounding,
+            tolerances=studies.tolerances,
             date=date,
             notes=studies.notes,
         )
@@ -140,35 +126,6 @@ def _opened(source: FormResult | str | os.PathLike[str]) -> tuple[FormResult, St
         return source, Studies()
     result = load_result(source)
     return result, studies_beside(Path(source), result)
-
-
-def studies_beside(source: Path, result: FormResult) -> Studies:
-    """Return the studies of a result in folders beside its own, named like it with what they are behind.
-
-    Raises
-    ------
-    InconsistentInputError
-        If one of them is damaged.
-    """
-    folder = (source if source.is_dir() else source.parent).resolve()
-    elasticity = _study(folder, "elasticity", ElasticityStudy)
-    loads = _study(folder, "loads", LoadStudy)
-    found = {"elasticity": elasticity, "loads": loads}
-    foreign = [
-        what
-        for what, study in found.items()
-        if study is not None and (study.inputs != result.inputs or study.method != result.method)
-    ]
-    return Studies(
-        None if "elasticity" in foreign else elasticity,
-        None if "loads" in foreign else loads,
-        tuple(f"{folder.name}-{what} is left out: it is of {_OTHER}." for what in foreign),
-    )
-
-
-def _study(folder: Path, what: str, kind: type[Study]) -> Study | None:
-    beside = folder.with_name(f"{folder.name}-{what}")
-    return load_result(beside, kind) if (beside / JSON_NAME).exists() else None
 
 
 def _path(file: str | os.PathLike[str] | None) -> Path | None:

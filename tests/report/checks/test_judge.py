@@ -11,8 +11,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from catenaria.report.checks import Check, judge, load_rules, write_checks
+from catenaria.line.load_case import LoadCases
+from catenaria.report.checks import Check, Rules, judge, load_rules, write_checks
+from catenaria.report.checks.elasticity import softness
 from catenaria.results import FormResult
+from catenaria.workflow import elasticity, under_loads
 
 RULES = load_rules()
 AT_200 = 200 / 3.6
@@ -141,6 +144,106 @@ def test_lateral_position_between_supports(curve: FormResult) -> None:
     assert (check.value, check.verdict) == (pytest.approx(410.0), "fails")
     assert float(check.place.removesuffix(" m")) == pytest.approx(175.0, abs=1.0)
     assert checked(curve, "lateral position of the contact wire").verdict == "passes"
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "bridge",
+        "compound",
+        "curve_800m",
+        "overlap",
+        "simple_55m",
+        "simple_60m",
+        "stitched_re250",
+        "two_contact_wires_3kv",
+    ],
+)
+def test_examples_pass_at_the_speed_they_give(solved: Callable[[str], FormResult], name: str) -> None:
+    checks = judge(solved(name), RULES)
+    assert [check.name for check in checks if check.verdict == "fails"] == []
+    judged = {check.name for check in checks if check.verdict == "passes"}
+    assert {"speed by wave speed", "gradient of the contact wire", "shortest dropper"} <= judged
+    too_fast = judge(solved(name), RULES, 350 / 3.6)
+    assert "fails" in {check.verdict for check in too_fast}
+
+
+def test_gradients_between_droppers_by_hand(solved: Callable[[str], FormResult]) -> None:
+    line = solved("simple_55m")
+    # parabola of 55 mm over 46 m: 55 mm (1 - (1 - 5.75/23)^2) = 24.06 mm on the first 5.75 m, 4.18 per mille
+    gradient = checked(line, "gradient between droppers")
+    assert gradient.value == pytest.approx(1e3 * 0.055 * (1 - 0.75**2) / 5.75, abs=1e-3)
+    change = checked(line, "change of gradient at droppers")  # from level across the support to the pre-sag
+    assert change.value == pytest.approx(gradient.value, abs=1e-3)
+    assert (gradient.verdict, change.verdict) == ("not judged", "not judged")
+
+
+def test_gradients_between_droppers_have_limits_if_wanted(curve: FormResult) -> None:
+    given = {"gradient_at_droppers": {"id": "ours", "limit": 1e-3}}
+    rules = Rules.model_validate({"format": 1, **given})
+    height = curve.droppers.height.copy()
+    level = judge(curve, rules)[0]
+    height[10] += 0.02  # on 7.5 m: 2.7 per mille
+    bumpy = replace(curve, droppers=replace(curve.droppers, height=height))
+    assert (level.name, level.verdict) == ("gradient between droppers", "passes")
+    assert judge(bumpy, rules)[0].verdict == "fails"
+    assert judge(bumpy, rules)[0].value == pytest.approx(1e3 * 0.02 / 7.5, rel=1e-3)
+
+
+def test_hangers_are_not_droppers(solved: Callable[[str], FormResult]) -> None:
+    line = solved("compound")
+    hung = np.array([name == "auxiliary messenger" for name in line.droppers.upper_wire])
+    dropper, hanger = checked(line, "shortest dropper"), checked(line, "shortest hanger")
+    assert dropper.value == pytest.approx(line.droppers.length[~hung].min())
+    assert hanger.value == pytest.approx(line.droppers.length[hung].min())
+    assert line.droppers.length[hung].max() < 0.5 < line.droppers.length[~hung].min()
+    assert hanger.place.startswith("span 2, hanger ")
+    assert (hanger.verdict, dropper.verdict) == ("not judged", "passes")
+
+
+def test_waves_of_the_line_go_by_mean_tensions(solved: Callable[[str], FormResult]) -> None:
+    line = solved("stitched_re250")  # stitch wires take 2.8 kN off the messenger beside supports
+    whole = next(check for check in judge(line, RULES) if check.place == "whole line")
+    # 15,000 N + 14,260 N on 1.067 kg/m + 0.596 kg/m
+    assert whole.value == pytest.approx(3.6 * np.sqrt(29_260 / 1.663), rel=1e-4)
+    assert line.wires[1].tension_min < 12_500
+
+
+def test_the_place_of_the_largest_offset_is_a_support(curve: FormResult, paper: FormResult) -> None:
+    assert checked(curve, "lateral position of the contact wire").place == "S6"
+    assert checked(paper, "lateral position of the contact wire").place == "everywhere"
+
+
+def test_lifted_spans_do_not_count_for_elasticity(solved: Callable[[str], FormResult]) -> None:
+    line = solved("overlap")
+    study = elasticity(line, spacing=10.0)
+    check = next(c for c in judge(line, RULES, elasticity=study) if c.name.startswith("non-uniformity"))
+    used = (study.points.chainage >= 110.0 - 1e-6) & (study.points.chainage <= 990.0 + 1e-6)  # S3 to S19
+    e = study.points.elasticity[used]
+    assert study.nonuniformity == pytest.approx(1.0)  # at S2 the wire cannot rise
+    assert check.value == pytest.approx(100 * (e.max() - e.min()) / (e.max() + e.min()))
+    assert "from S3 to S19" in check.why
+    assert softness(line, study).counted.tolist() == [False] * 2 + [True] * 16 + [False] * 2
+
+
+def test_all_inner_spans_count_elsewhere(paper: FormResult) -> None:
+    study = elasticity(paper, spacing=10.0)
+    soft = softness(paper, study)
+    assert (soft.nonuniformity, soft.largest, soft.note) == (study.nonuniformity, study.largest, "")
+    assert soft.counted.tolist() == [False, True, False]
+
+
+def test_wind_takes_the_contact_wire_aside(curve: FormResult) -> None:
+    speeds = {"calm": 5.0, "storm": 40.0}
+    cases = {name: {"wind": {"speed": speed}} for name, speed in speeds.items()}
+    loads = under_loads(curve, LoadCases.model_validate({"format": 1, "cases": cases}))
+    check = next(c for c in judge(curve, RULES, loads=loads) if c.name == "lateral position under load cases")
+    wire = loads.cases[1].state.wires[0]
+    inside = (wire.chainage >= 0.0) & (wire.chainage <= 902.0)
+    assert check.value == pytest.approx(1e3 * np.abs(wire.lateral[inside]).max())
+    assert check.place.startswith("storm: ")
+    assert check.verdict == ("passes" if np.abs(wire.lateral[inside]).max() <= 0.4 else "fails")
+    assert not any("load cases" in c.name for c in judge(curve, RULES))
 
 
 def test_lifted_ends_are_not_in_use(solved: Callable[[str], FormResult]) -> None:

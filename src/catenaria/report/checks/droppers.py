@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from catenaria.report.checks.check import Check, Found, first_largest, judged
 from catenaria.report.checks.rules import Rules
 from catenaria.report.checks.running import result_role
+from catenaria.report.names import are_hangers, dropper_place
 from catenaria.results import FormResult
 
 _NONE = "there are no droppers"
@@ -16,8 +17,11 @@ _NONE = "there are no droppers"
 def dropper_checks(result: FormResult, rules: Rules, speed: float | None) -> list[Check]:
     """Check the shortest dropper, the widest gap between two, and the smallest force."""
     checks: list[Check] = []
+    hangers = are_hangers(result)
     if rules.dropper_length is not None:
-        checks.append(judged("shortest dropper", rules.dropper_length, speed, _shortest(result)))
+        checks.append(judged("shortest dropper", rules.dropper_length, speed, _shortest(result, ~hangers)))
+    if rules.hanger_length is not None and hangers.any():
+        checks.append(judged("shortest hanger", rules.hanger_length, speed, _shortest(result, hangers)))
     if rules.dropper_spacing is not None:
         checks.append(judged("dropper spacing", rules.dropper_spacing, speed, _widest(result)))
     if rules.dropper_force is not None:
@@ -25,12 +29,12 @@ def dropper_checks(result: FormResult, rules: Rules, speed: float | None) -> lis
     return checks
 
 
-def _shortest(result: FormResult) -> Found | str:
-    length = result.droppers.length
-    if not length.size:
+def _shortest(result: FormResult, among: NDArray[np.bool_]) -> Found | str:
+    if not among.any():
         return _NONE
+    length = np.where(among, result.droppers.length, np.inf)
     i = first_largest(-length)
-    return Found(float(length[i]), _place(result, i), "m", bound="at least")
+    return Found(float(length[i]), dropper_place(result, i), "m", bound="at least")
 
 
 def _weakest(result: FormResult) -> Found | str:
@@ -38,7 +42,7 @@ def _weakest(result: FormResult) -> Found | str:
     if not force.size:
         return _NONE
     i = first_largest(-force)
-    return Found(float(force[i]), _place(result, i), "N", bound="more than")
+    return Found(float(force[i]), dropper_place(result, i), "N", bound="more than")
 
 
 def _widest(result: FormResult) -> Found | str:
@@ -57,7 +61,3 @@ def _on_contact_wires(result: FormResult) -> tuple[NDArray[np.float64], NDArray[
     own = np.flatnonzero([result_role(result, name) == "contact wire" for name in droppers.lower_wire])
     own = own[np.argsort(droppers.x[own], kind="stable")]
     return droppers.x[own], droppers.span[own]
-
-
-def _place(result: FormResult, i: int) -> str:
-    return f"span {result.droppers.span[i]}, dropper {result.droppers.number[i]}"

@@ -8,19 +8,20 @@ from pathlib import Path
 import numpy as np
 
 from catenaria.line import Line
-from catenaria.report.checks.check import Check, Found, by_limit, first_largest, judged, stated
+from catenaria.report.checks.check import Check, Found, first_largest, judged
 from catenaria.report.checks.droppers import dropper_checks
+from catenaria.report.checks.elasticity import elasticity_checks
 from catenaria.report.checks.heights import height_checks
 from catenaria.report.checks.holds import hold_checks
-from catenaria.report.checks.rules import Rule, Rules, Share
+from catenaria.report.checks.rules import Rules
 from catenaria.report.checks.waves import wave_checks
 from catenaria.report.columns import Columns
 from catenaria.report.tables import write_csv
 from catenaria.results import FormResult, WireForm
+from catenaria.results.case import LoadStudy
 from catenaria.results.elasticity import ElasticityStudy
 
 _TIED = ("stitch wire", "mid-point anchor")
-_NOT_STUDIED = "there is no study of elasticity of this result (the command: catenaria elasticity)"
 
 
 def judge(
@@ -28,6 +29,7 @@ def judge(
     rules: Rules,
     speed: float | None = None,
     elasticity: ElasticityStudy | None = None,
+    loads: LoadStudy | None = None,
 ) -> tuple[Check, ...]:
     """Check a result by rules.
 
@@ -39,18 +41,18 @@ def judge(
         The limits.
     speed : float, optional
         Of trains [m/s]; by default that of the line file, if it has one.
-    elasticity : ElasticityStudy, optional
-        A study of the same result.
+    elasticity, loads : optional
+        Studies of the same result.
     """
     line = Line.model_validate(result.inputs)
     speed = line.speed if speed is None else speed
     return (
         *height_checks(result, rules, speed),
         *dropper_checks(result, rules, speed),
-        *hold_checks(result, rules, speed),
+        *hold_checks(result, rules, speed, loads),
         *_tension_checks(result, rules, speed),
         *wave_checks(result, rules, speed, line),
-        *_elasticity_checks(elasticity, rules, speed),
+        *elasticity_checks(result, elasticity, rules, speed),
     )
 
 
@@ -70,25 +72,6 @@ def _variation(wire: WireForm) -> Found:
     off = max(wanted - wire.tension_min, wire.tension_max - wanted) / wanted
     why = f"{wire.tension_min:.1f} N to {wire.tension_max:.1f} N, wanted {wanted:.1f} N"
     return Found(off, wire.name, "%", 100.0, why=why)
-
-
-def _elasticity_checks(study: ElasticityStudy | None, rules: Rules, speed: float | None) -> list[Check]:
-    name, rule = "non-uniformity of elasticity", rules.nonuniformity
-    if study is None:
-        return [] if rule is None else [judged(name, rule, speed, _NOT_STUDIED)]
-    checks = [stated("largest elasticity", 1e3 * study.largest, "mm/N", "inner spans")]
-    if rule is None:
-        return checks
-    why = f"with {study.force:g} N" if study.force > 0.0 else "limit of a small push"
-    found = Found(study.nonuniformity, "inner spans", "%", 100.0, why=why)
-    return [*checks, by_limit(name, rule, _least_limit(rule, speed, study), found)]
-
-
-def _least_limit(rule: Rule[Share], speed: float | None, study: ElasticityStudy) -> float | str:
-    limit = rule.at(speed)
-    if isinstance(limit, str):
-        return min(study.nonuniformity_limit, default=limit)
-    return min(limit, *study.nonuniformity_limit)
 
 
 def check_columns(checks: tuple[Check, ...]) -> Columns:

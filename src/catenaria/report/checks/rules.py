@@ -94,11 +94,20 @@ class Rules(LineModel):
     gradient_change: Rule[Slope] | None = Field(
         default=None, description="Largest change of that gradient at a support."
     )
+    gradient_at_droppers: Rule[Slope] | None = Field(
+        default=None, description="Largest gradient between neighbouring droppers, pre-sag included."
+    )
+    gradient_change_at_droppers: Rule[Slope] | None = Field(
+        default=None, description="Largest change of that gradient at a dropper."
+    )
     height_at_droppers: Rule[NonNegativeLength] | None = Field(
         default=None, description="Largest deviation from the wanted height at a dropper."
     )
     dropper_length: Rule[NonNegativeLength] | None = Field(
         default=None, description="Least length of a dropper, from wire axis to wire axis."
+    )
+    hanger_length: Rule[NonNegativeLength] | None = Field(
+        default=None, description="Least length of a hanger between auxiliary messenger and contact wire."
     )
     dropper_spacing: Rule[NonNegativeLength] | None = Field(
         default=None, description="Largest distance of neighbouring droppers in a span."
@@ -113,7 +122,8 @@ class Rules(LineModel):
         default=None, description="Least force across the track with which a wire holds a steady arm."
     )
     lateral_position: Rule[NonNegativeLength] | None = Field(
-        default=None, description="Largest distance of the contact wire from the middle of the track."
+        default=None,
+        description="Largest distance of the contact wire from the middle of the track, with wind too.",
     )
     tension_variation: Rule[Share] | None = Field(
         default=None, description="Largest departure from the wanted tension along a wire, as a share."

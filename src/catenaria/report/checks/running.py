@@ -38,6 +38,12 @@ class Running:
     stagger: FloatArray
     left_out: int
 
+    def between(self, chainage: FloatArray) -> NDArray[np.bool_]:
+        """Return what is between the first and the last of the supports."""
+        if not self.chainage.size:
+            return np.ones(chainage.size, dtype=np.bool_)
+        return (chainage >= self.chainage[0]) & (chainage <= self.chainage[-1])
+
     @property
     def note(self) -> str:
         """What one must know of bays that are left out."""

@@ -18,25 +18,29 @@ def wave_checks(result: FormResult, rules: Rules, speed: float | None, line: Lin
     contact = [wire for wire in result.wires if wire.role == "contact wire"]
     above = [wire for wire in result.wires if wire.role in _ABOVE]
     simple = len(above) == 1  # the formula of reflection is for two wires
-    slowest = min(contact, key=lambda wire: wave_speed(*_of(line, [wire])))
-    c = wave_speed(*_of(line, [slowest]))
+    slowest = min(contact, key=lambda wire: wave_speed(*_least(line, wire)))
+    c = wave_speed(*_least(line, slowest))
     checks: list[Check] = []
     if rules.wave_speed is not None:
         found = _share(c, speed, slowest.name)
         checks.append(judged("speed by wave speed", rules.wave_speed, speed, found))
     for wire in (*contact, *above):
-        checks.append(stated("wave speed", 3.6 * wave_speed(*_of(line, [wire])), "km/h", wire.name))
-    checks.append(
-        stated("wave speed", 3.6 * wave_speed(*_of(line, [*contact, *above])), "km/h", "whole line")
-    )
+        checks.append(stated("wave speed", 3.6 * wave_speed(*_mean(line, [wire])), "km/h", wire.name))
+    whole = 3.6 * wave_speed(*_mean(line, [*contact, *above]))
+    checks.append(stated("wave speed", whole, "km/h", "whole line"))
     if simple:
-        checks += _factors(reflection_factor(_of(line, contact), _of(line, above)), c, speed)
+        checks += _factors(reflection_factor(_mean(line, contact), _mean(line, above)), c, speed)
     return checks
 
 
-def _of(line: Line, wires: Sequence[WireForm]) -> tuple[float, float]:
-    """Return the sums of the least tensions [N] and of the masses per length [kg/m] of wires."""
-    return sum(wire.tension_min for wire in wires), sum(_mass(line, wire) for wire in wires)
+def _least(line: Line, wire: WireForm) -> tuple[float, float]:
+    """Return a wire's least tension [N] and its mass per length [kg/m]."""
+    return wire.tension_min, _mass(line, wire)
+
+
+def _mean(line: Line, wires: Sequence[WireForm]) -> tuple[float, float]:
+    """Return the sums of the mean tensions [N] and of the masses per length [kg/m] of wires."""
+    return sum(wire.tension_mean for wire in wires), sum(_mass(line, wire) for wire in wires)
 
 
 def _mass(line: Line, wire: WireForm) -> float:

@@ -18,7 +18,7 @@ FloatArray = NDArray[np.float64]
 Trace = dict[str, Any]
 
 _CLEAR = "rgba(0,0,0,0)"
-_MOST_NAMES = 12  # of supports above one panel
+_MOST_NAMES = 12  # of supports above one panel; of more, every second one is named, or every third...
 _COLOURS = {
     "contact wire": "contact",
     "second contact wire": "second",
@@ -169,15 +169,15 @@ def layout(
     **more
         Further properties of the upright axis.
     """
-    here = {name: at for name, at in supports.items() if x[0] <= at <= x[1]}
-    named = len(here) <= _MOST_NAMES
+    here = sorted((at, name) for name, at in supports.items() if x[0] <= at <= x[1])
+    named = here[:: max(-(-len(here) // _MOST_NAMES), 1)]
     axis = {"gridcolor": colour("grid"), "linecolor": colour("grid"), "zeroline": False, "ticks": "outside"}
     axis |= {"tickcolor": colour("grid")}
     return {
         "xaxis": axis | {"title": {"text": "chainage [m]"}, "range": list(x), "showgrid": False},
         "yaxis": axis | {"title": {"text": quantity, "standoff": 8}, "automargin": True} | more,
-        "shapes": [_upright(at) for at in here.values()],
-        "annotations": [_name(name, at) for name, at in here.items()] if named else [],
+        "shapes": [_upright(at) for at, _ in here],
+        "annotations": [_name(name, at) for at, name in named],
         "hovermode": "closest",
         "dragmode": "zoom",
         "font": {"family": "system-ui, sans-serif", "size": 12, "color": colour("ink")},

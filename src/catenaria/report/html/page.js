@@ -25,6 +25,17 @@
         ? item.map((part) => resolved(part, style)) : resolved(item, style)]));
   }
 
+  // Leave out names of supports that would be written over the one before.
+  function legible(names, range, width, size) {
+    const left = (name) => ((name.x - range[0]) / (range[1] - range[0])) * width - 0.3 * size * name.text.length;
+    let end = -Infinity;
+    return names.filter((name) => {
+      if (left(name) < end) return false;
+      end = left(name) + 0.6 * size * name.text.length + 6;
+      return true;
+    });
+  }
+
   function draw(one) {
     const place = document.getElementById(one.id);
     const style = getComputedStyle(document.documentElement);
@@ -33,10 +44,13 @@
     layout.width = width;
     layout.height = Math.round(one.layout.height * (onPaper ? 0.82 : 1));
     place.style.height = layout.height + "px";
-    if (width < narrow) {
+    if (onPaper) layout.font = {...layout.font, size: 10};
+    else if (width < narrow) {
       layout.margin = {...layout.margin, l: 58, r: 6};
       layout.font = {...layout.font, size: 11};
     }
+    const inner = width - layout.margin.l - layout.margin.r;
+    layout.annotations = legible(layout.annotations, layout.xaxis.range, inner, layout.font.size);
     if (place.layout && !onPaper) { // keep what the reader has zoomed to
       for (const axis of ["xaxis", "yaxis"]) {
         const shown = place.layout[axis];
@@ -71,6 +85,19 @@
     folded.forEach((fold) => { fold.open = false; });
     onPaper = null;
     drawAll();
+  }
+
+  for (const button of document.querySelectorAll("button.unfold")) {
+    const folds = [...button.closest("section").querySelectorAll("details")];
+    const unfolded = () => folds.every((fold) => fold.open);
+    const tell = () => { button.textContent = unfolded() ? "Fold all" : "Unfold all"; };
+    button.addEventListener("click", () => {
+      const open = !unfolded();
+      folds.forEach((fold) => { fold.open = open; });
+    });
+    folds.forEach((fold) => fold.addEventListener("toggle", tell));
+    button.hidden = folds.length < 2;
+    tell();
   }
 
   let waiting = 0;

@@ -2,25 +2,28 @@
 
 from __future__ import annotations
 
-import io
-import json
 from dataclasses import dataclass, field
 from importlib import import_module
 from typing import Any
 
 import numpy as np
-from ruamel.yaml import YAML
 
 from catenaria.errors import UnsupportedError
 from catenaria.line import Line
 from catenaria.line.summary import summarise
 from catenaria.report.checks import Check, Rules, judge
-from catenaria.report.html import figures, study_figures, study_tables, tables
+from catenaria.report.checks.elasticity import softness
+from catenaria.report.html import accuracy_tables, figures, study_figures, study_tables, tables
+from catenaria.report.html.clamps import clamp_tables
+from catenaria.report.html.contact_tables import contact_tables
 from catenaria.report.html.drawing import Drawing
 from catenaria.report.html.sketch import sketch
+from catenaria.report.html.texts import echo, script_data, style_text
 from catenaria.results import FormResult
 from catenaria.results.case import LoadStudy
 from catenaria.results.elasticity import ElasticityStudy
+from catenaria.results.rounding import RoundingStudy
+from catenaria.results.tolerance import ToleranceStudy
 
 _NEEDED = ("jinja2", "plotly")
 
@@ -37,7 +40,7 @@ class Contents:
         By which it is checked.
     speed : float, optional
         Of trains [m/s]; by default that of the line file.
-    elasticity, loads
+    elasticity, loads, rounding, tolerances
         Studies of the same result, if there are any.
     date : str
         As it shall stand in the page; empty for none.
@@ -50,6 +53,8 @@ class Contents:
     speed: float | None = None
     elasticity: ElasticityStudy | None = None
     loads: LoadStudy | None = None
+    rounding: RoundingStudy | None = None
+    tolerances: ToleranceStudy | None = None
     date: str = ""
     notes: tuple[str, ...] = field(default=())
 
@@ -101,7 +106,7 @@ def _context(contents: Contents, environment: Any) -> dict[str, Any]:
     result = contents.result
     line = Line.model_validate(result.inputs)
     speed = line.speed if contents.speed is None else contents.speed
-    checks = judge(result, contents.rules, speed, contents.elasticity)
+    checks = judge(result, contents.rules, speed, contents.elasticity, contents.loads)
     sections = _figures(contents)
     drawings = [one for section in sections.values() for one in section]
     return {
@@ -110,16 +115,21 @@ def _context(contents: Contents, environment: Any) -> dict[str, Any]:
         "line": line,
         "speed": "" if speed is None else f"{3.6 * speed:.4g} km/h",
         "summary": summarise(line),
+        "footer": style_text(_footer(contents)),
         "headline": _headline(result),
         "sketch": sketch(result, line),
         "judged": [check for check in checks if check.rule],
         "stated": [check for check in checks if not check.rule],
         "verdicts": _verdicts(checks),
         "figures": sections,
+        "soft": None if contents.elasticity is None else softness(result, contents.elasticity),
         "tables": tables,
+        "contact_tables": contact_tables(result, line),
+        "clamp_tables": clamp_tables(result),
         "study_tables": study_tables,
+        "accuracy_tables": accuracy_tables,
         "echo": echo(line),
-        "drawings": _script([_plain(one) for one in drawings]),
+        "drawings": script_data([_plain(one) for one in drawings]),
         "plotly": _plotly(),
         "style": environment.loader.get_source(environment, "style.css")[0],
         "script": environment.loader.get_source(environment, "page.js")[0],
@@ -136,7 +146,7 @@ def _figures(contents: Contents) -> dict[str, list[Drawing]]:
         "tension": figures.tension_figures(result),
         "elasticity": []
         if contents.elasticity is None
-        else [study_figures.elasticity_figure(contents.elasticity)],
+        else [study_figures.elasticity_figure(contents.elasticity, figures.support_places(result))],
         "cases": [] if contents.loads is None else study_figures.case_figures(contents.loads),
     }
 
@@ -162,25 +172,14 @@ def _verdicts(checks: tuple[Check, ...]) -> dict[str, int]:
     return {verdict: ruled.count(verdict) for verdict in ("passes", "fails", "not judged")}
 
 
-def echo(line: Line) -> str:
-    """Return the line as YAML in SI, short where it can be."""
-    writer: Any = YAML(typ="safe", pure=True)
-    writer.default_flow_style = None
-    writer.sort_base_mapping_type_on_output = False
-    writer.width = 110
-    stream = io.StringIO()
-    writer.dump(line.model_dump(mode="json", exclude_none=True), stream)
-    return stream.getvalue()
+def _footer(contents: Contents) -> str:
+    """Return what stands at the foot of every page on paper."""
+    version = contents.result.versions.get("catenaria", "")
+    return ", ".join(text for text in (contents.result.name, contents.date, f"catenaria {version}") if text)
 
 
 def _plain(one: Drawing) -> dict[str, Any]:
     return {"id": one.id, "data": one.data, "layout": one.layout | {"height": one.height}}
-
-
-def _script(value: Any) -> str:
-    """Return JSON that may stand within a script element, whatever texts are in it."""
-    text = json.dumps(value, separators=(",", ":"), ensure_ascii=False, allow_nan=False)
-    return text.replace("<", "\\u003c").replace(">", "\\u003e").replace("&", "\\u0026")
 
 
 def _plotly() -> str:

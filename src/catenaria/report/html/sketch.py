@@ -112,11 +112,12 @@ def _bay(result: FormResult, line: Line, span: int, x0: float, x1: float) -> Bay
         return x0 + xi * (x1 - x0), _AUXILIARY if level else messenger_y(xi)
 
     count = len({round(float(droppers.x[i]), 3) for i in lower})
+    named = f"{len(upper)} + {count} droppers" if compound else f"{count} dropper{'s' * (count != 1)}"
     return Bay(
         x0,
         x1,
         f"{length:g} m",
-        f"{count} dropper{'' if count == 1 else 's'}",
+        named,
         tuple(place(int(i), compound) for i in lower),
         tuple(place(int(i), False) for i in upper),
     )

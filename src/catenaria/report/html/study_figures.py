@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 from numpy.typing import NDArray
 
 from catenaria.report.html import drawing
 from catenaria.report.html.drawing import Drawing, Trace, colour
+from catenaria.report.html.figures import with_margins
 from catenaria.report.html.thinning import thinned
 from catenaria.results.case import LineState, LoadStudy
 from catenaria.results.elasticity import ElasticityStudy
@@ -18,8 +21,8 @@ _MOST_CASES = 12
 _AS_BUILT = "as built"
 
 
-def elasticity_figure(study: ElasticityStudy) -> Drawing:
-    """Draw the elasticity along the line."""
+def elasticity_figure(study: ElasticityStudy, supports: Mapping[str, float]) -> Drawing:
+    """Draw the elasticity along the line; supports by name [m]."""
     points = study.points
     kept = thinned(points.chainage, (points.elasticity,), most=2000)
     x, e = points.chainage[kept], 1e3 * points.elasticity[kept]
@@ -30,8 +33,8 @@ def elasticity_figure(study: ElasticityStudy) -> Drawing:
     at = study.droppers[own]
     texts = [f"dropper at {place:.2f} m" for place in at]
     data.append(drawing.points(at, 0.0 * at, "dropper", colour("dropper"), texts, symbol="triangle-up"))
-    names = {f"{place:.0f} m": float(place) for place in study.supports}
-    layout = drawing.layout((float(x.min()), float(x.max())), "elasticity [mm/N]", names, rangemode="tozero")
+    extent = with_margins((float(x.min()), float(x.max())))
+    layout = drawing.layout(extent, "elasticity [mm/N]", supports, rangemode="tozero")
     return Drawing("elasticity-1", "Elasticity along the line", 320, data, layout)
 
 
@@ -41,7 +44,9 @@ def case_figures(study: LoadStudy) -> list[Drawing]:
     supports = dict(zip(first.support, first.chainage.tolist(), strict=True))
     states = {_AS_BUILT: study.before, **{case.name: case.state for case in study.cases[:_MOST_CASES]}}
     wires = [wire for wire in study.before.wires if wire.role == "contact wire"]
-    x = (min(float(wire.chainage.min()) for wire in wires), max(float(wire.chainage.max()) for wire in wires))
+    x = with_margins(
+        (min(float(wire.chainage.min()) for wire in wires), max(float(wire.chainage.max()) for wire in wires))
+    )
     few = f", the first {_MOST_CASES} of them" if len(study.cases) > _MOST_CASES else ""
     figures = [
         Drawing(

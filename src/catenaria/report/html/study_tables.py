@@ -4,8 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+import numpy as np
+from numpy.typing import NDArray
+
 from catenaria.report.case_columns import case_columns
 from catenaria.report.checks import Check
+from catenaria.report.elasticity_tables import HAND_FACTORS
 from catenaria.report.html.table import Table, column
 from catenaria.results import FormResult
 from catenaria.results.audit import amount
@@ -13,31 +17,37 @@ from catenaria.results.case import LoadStudy
 from catenaria.results.elasticity import ElasticityStudy
 
 _BOUND = {"at most": "≤", "at least": "≥", "more than": ">"}
+_DIGITS = {"m": 3, "mm": 1, "N": 1, "‰": 2, "%": 2, "km/h": 1}
+_MOST_DIGITS = 3
+_TIED = ("stitch wire", "mid-point anchor")
 
 
-def number(size: float | None, unit: str) -> str:
-    """Return a value with its unit, to as many digits as an engineer compares.
+def number(size: float | None, unit: str, digits: int | None = None) -> str:
+    """Return a value with its unit, to as many digits as an engineer compares, or to the digits asked for.
 
     Examples
     --------
     >>> number(0.0, "‰"), number(1.97392, "‰"), number(389.0222, "km/h"), number(None, "m")
-    ('0 ‰', '1.974 ‰', '389 km/h', '')
+    ('0.00 ‰', '1.97 ‰', '389.0 km/h', '')
     """
     if size is None:
         return ""
-    rounded = round(size, 3) + 0.0
-    text = f"{rounded:.4g}" if abs(rounded) < 1e4 else f"{rounded:.0f}"
-    return f"{text} {unit}".strip()
+    places = _DIGITS.get(unit, _MOST_DIGITS) if digits is None else digits
+    return f"{round(size, places) + 0.0:.{places}f} {unit}".strip()
 
 
 def value(check: Check) -> str:
-    """Return the value of a check with its unit."""
-    return number(check.value, check.unit)
+    """Return the value of a check with its unit; one that fails never reads as if it were the limit."""
+    digits = _DIGITS.get(check.unit, _MOST_DIGITS)
+    if check.verdict == "fails" and check.value is not None and check.limit is not None:
+        while digits < 2 * _MOST_DIGITS and round(check.value, digits) == round(check.limit, digits):
+            digits += 1
+    return number(check.value, check.unit, digits)
 
 
 def limit(check: Check) -> str:
     """Return the limit of a check with its sign."""
-    return f"{_BOUND[check.bound]} {number(check.limit, check.unit)}" if check.bound else ""
+    return f"{_BOUND[check.bound]} {check.limit:g} {check.unit}".strip() if check.bound else ""
 
 
 def figure_table(checks: Sequence[Check]) -> Table:
@@ -47,7 +57,7 @@ def figure_table(checks: Sequence[Check]) -> Table:
         (
             column("", "", [check.name for check in checks]),
             column("of", "", [check.place for check in checks]),
-            column("value", "", [value(check) for check in checks]),
+            column("value", "", [value(check) for check in checks], flush=True),
         ),
     )
 
@@ -69,9 +79,10 @@ def audit_table(result: FormResult) -> Table:
     )
 
 
-def elasticity_table(study: ElasticityStudy) -> Table:
-    """Return elasticities of all whole spans."""
+def elasticity_table(study: ElasticityStudy, counted: NDArray[np.bool_]) -> Table:
+    """Return elasticities of all whole spans, those that count and the others, beside the hand formula."""
     spans = study.spans
+    hand = (column(f"L/({k:g} ΣT)", "mm/N", 1e3 * spans.textbook(k), ".3f") for k in HAND_FACTORS)
     return Table(
         "",
         (
@@ -81,7 +92,9 @@ def elasticity_table(study: ElasticityStudy) -> Table:
             column("largest", "mm/N", 1e3 * spans.largest, ".4f"),
             column("smallest", "mm/N", 1e3 * spans.smallest, ".4f"),
             column("mid span", "mm/N", 1e3 * spans.at_middle, ".4f"),
+            *hand,
             column("non-uniformity", "%", 100.0 * spans.nonuniformity, ".1f"),
+            column("counts", "", counted),
         ),
     )
 
@@ -89,17 +102,39 @@ def elasticity_table(study: ElasticityStudy) -> Table:
 def case_table(study: LoadStudy) -> Table:
     """Return a row for each load case."""
     values = case_columns(study)
-    shown = (
-        ("case", "", "case", ""),
-        ("warmer by", "K", "warming_K", "g"),
-        ("lowest", "m", "lowest_contact_wire_m", ".4f"),
-        ("highest", "m", "highest_contact_wire_m", ".4f"),
-        ("furthest aside", "m", "largest_lateral_m", ".4f"),
-        ("uplift at supports", "m", "support_uplift_m", ".4f"),
-        ("uplift at pushes", "m", "push_uplift_m", ".4f"),
-        ("slack droppers", "", "slack_droppers", "d"),
-        ("least dropper force", "N", "dropper_force_min_N", ".1f"),
-        ("largest dropper force", "N", "dropper_force_max_N", ".1f"),
+
+    def millimetres(of: str) -> list[float]:
+        return [1e3 * value for value in values[of]]
+
+    return Table(
+        "",
+        (
+            column("case", "", values["case"]),
+            column("warmer by", "K", values["warming_K"], "g"),
+            column("lowest", "m", values["lowest_contact_wire_m"], ".4f"),
+            column("highest", "m", values["highest_contact_wire_m"], ".4f"),
+            column("furthest aside", "mm", millimetres("largest_lateral_m"), ".0f"),
+            column("uplift at supports", "mm", millimetres("support_uplift_m"), ".1f"),
+            column("uplift at pushes", "mm", millimetres("push_uplift_m"), ".1f"),
+            column("slack droppers", "", [int(count) for count in values["slack_droppers"]]),
+            column("least dropper force", "N", values["dropper_force_min_N"], ".1f"),
+            column("largest dropper force", "N", values["dropper_force_max_N"], ".1f"),
+        ),
     )
-    values["slack_droppers"] = [int(count) for count in values["slack_droppers"]]
-    return Table("", tuple(column(name, unit, values[of], form) for name, unit, of, form in shown))
+
+
+def case_wire_table(study: LoadStudy) -> Table:
+    """Return tensions of wires under load cases, and how far tensioning devices have moved."""
+    states = [("as built", study.before), *((case.name, case.state) for case in study.cases)]
+    long = [k for k, wire in enumerate(study.before.wires) if wire.role not in _TIED]
+    rows = [(name, state.wires[k], study.before.wires[k]) for k in long for name, state in states]
+    return Table(
+        "",
+        (
+            column("wire", "", [wire.name for _, wire, _ in rows]),
+            column("case", "", [name for name, _, _ in rows]),
+            column("least tension", "N", [wire.tension_min for _, wire, _ in rows], ".1f"),
+            column("largest tension", "N", [wire.tension_max for _, wire, _ in rows], ".1f"),
+            column("devices moved", "mm", [1e3 * (wire.travel - was.travel) for _, wire, was in rows], ".1f"),
+        ),
+    )

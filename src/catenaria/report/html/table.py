@@ -43,8 +43,10 @@ class Table:
         return list(zip(*(column.cells for column in self.columns), strict=True))
 
 
-def column(name: str, unit: str, values: Iterable[Any], form: str = "") -> Column:
+def column(name: str, unit: str, values: Iterable[Any], form: str = "", *, flush: bool = False) -> Column:
     """Return a column of texts or of formatted numbers; what is not a number stays empty.
+
+    Texts that are numbers with units are set `flush` right as numbers are.
 
     Examples
     --------
@@ -55,7 +57,7 @@ def column(name: str, unit: str, values: Iterable[Any], form: str = "") -> Colum
     numeric = bool(items) and all(
         isinstance(item, int | float) and not isinstance(item, bool) for item in items
     )
-    return Column(name, unit, tuple(_cell(item, form) for item in items), numeric)
+    return Column(name, unit, tuple(_cell(item, form) for item in items), numeric or flush)
 
 
 def _cell(item: Any, form: str) -> str:

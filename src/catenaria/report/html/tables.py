@@ -1,12 +1,17 @@
-"""The tables of a page: dropper schedule, wires, supports, arms, and where clamps sit on the wires."""
+"""The tables of a page: dropper schedule, wires, supports, steady arms, cantilevers."""
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
 
+from catenaria.line.alignment import Alignment, Frames
+from catenaria.line.track import Track
 from catenaria.report.html.table import Table, column
-from catenaria.results import FormResult
+from catenaria.report.html.windows import support_places
+from catenaria.results import FormResult, WireForm
+
+FloatArray = NDArray[np.float64]
 
 _FOLDED_FROM = 5  # tables of one kind: more than these are folded
 
@@ -26,8 +31,10 @@ def _dropper_table(result: FormResult, span: int, unfolded: bool) -> Table:
         column("holds", "", [d.lower_wire[i] for i in own]),
         column("from", "", [d.upper_wire[i] for i in own]),
     ]
+    cut = d.cut_length[own]
     return Table(
-        f"Span {span}: {own.size} dropper{'s' if own.size != 1 else ''}",
+        f"Span {span}: {own.size} dropper{'s' if own.size != 1 else ''}, "
+        f"cut to {cut.min():.3f} to {cut.max():.3f} m",
         (
             column("dropper", "", d.number[own]),
             *(wires if several else []),
@@ -45,27 +52,41 @@ def _dropper_table(result: FormResult, span: int, unfolded: bool) -> Table:
 
 
 def wire_table(result: FormResult) -> Table:
-    """Return lengths, tensions and sag of all wires."""
+    """Return lengths, tensions, horizontal components at the ends, and sag of all wires."""
     wires = result.wires
     return Table(
         "",
         (
             column("wire", "", [wire.name for wire in wires]),
             column("unstressed length", "m", [wire.unstressed_length for wire in wires], ".4f"),
-            column("stretched length", "m", [wire.stretched_length for wire in wires], ".4f"),
+            column("elongation", "mm", [_elongation(wire) for wire in wires], ".1f"),
             column("wanted tension", "N", [wire.target_tension for wire in wires], ".1f"),
             column("tension", "N", [wire.tension for wire in wires], ".1f"),
             column("least", "N", [wire.tension_min for wire in wires], ".1f"),
             column("largest", "N", [wire.tension_max for wire in wires], ".1f"),
-            column("travel", "mm", [1e3 * wire.travel for wire in wires], ".1f"),
+            column("horizontal at start", "N", [wire.horizontal_start for wire in wires], ".1f"),
+            column("at end", "N", [wire.horizontal_end for wire in wires], ".1f"),
             column("sag", "mm", [1e3 * wire.sag for wire in wires], ".2f"),
         ),
     )
 
 
+def _elongation(wire: WireForm) -> float:
+    """Return by how much the force stretches a wire [mm]."""
+    return 1e3 * (wire.stretched_length - wire.unstressed_length)
+
+
+def _frames(result: FormResult, chainage: FloatArray) -> Frames:
+    """Return the axes of the track."""
+    track = Track.model_validate(result.inputs.get("track", {}))
+    return Alignment.of(track, float(result.inputs.get("start_chainage", 0.0))).frames(chainage)
+
+
 def support_table(result: FormResult) -> Table:
-    """Return where supports hold wires, and the forces on them."""
+    """Return where supports hold wires, and the forces on them along and across the track."""
     held = result.supports
+    along = _frames(result, held.chainage).along
+    force_along = along[:, 0] * held.force_x + along[:, 1] * held.force_y
     return Table(
         "",
         (
@@ -75,7 +96,7 @@ def support_table(result: FormResult) -> Table:
             column("chainage", "m", held.chainage, ".2f"),
             column("stagger", "mm", 1e3 * held.stagger, ".0f"),
             column("height", "m", held.height, ".4f"),
-            column("force along", "N", held.force_x, ".1f"),
+            column("force along", "N", force_along, ".1f"),
             column("to the left", "N", held.force_lateral, ".1f"),
             column("upwards", "N", held.force_z, ".1f"),
         ),
@@ -93,66 +114,31 @@ def arm_table(result: FormResult) -> Table:
             column("kind", "", arms.registration),
             column("chainage", "m", arms.chainage, ".2f"),
             column("length", "m", arms.length, ".3f"),
-            column("hinge aside", "mm", 1e3 * arms.hinge_stagger, ".0f"),
+            column("hinge stagger", "mm", 1e3 * arms.hinge_stagger, ".0f"),
             column("hinge height", "m", arms.hinge_height, ".3f"),
             column("angle", "°", np.degrees(arms.angle), ".2f"),
             column("radial", "N", arms.radial, ".1f"),
             column("vertical", "N", arms.vertical, ".1f"),
-            column("wanted", "N", arms.minimum_radial, ".0f"),
+            column("at least", "N", arms.minimum_radial, ".0f"),
         ),
     )
 
 
 def cantilever_table(result: FormResult) -> Table:
-    """Return roots and forces of flexible cantilevers."""
+    """Return roots and tips of flexible cantilevers, and their forces along and across the track."""
     beams = result.cantilevers
+    places = support_places(result)
+    frames = _frames(result, np.array([places[name] for name in beams.support]))
+    along = np.einsum("ni,ni->n", frames.along, beams.force)
+    left = frames.along[:, 0] * beams.force[:, 1] - frames.along[:, 1] * beams.force[:, 0]
     return Table(
         "",
         (
             column("support", "", beams.support),
-            column("root height", "m", beams.root[:, 2], ".3f"),
-            column("tip height", "m", beams.tip[:, 2], ".4f"),
-            *(column(f"force {axis}", "N", beams.force[:, i], ".1f") for i, axis in enumerate("xyz")),
+            column("root height", "m", frames.height(beams.root), ".3f"),
+            column("tip height", "m", frames.height(beams.tip), ".4f"),
+            column("force along", "N", along, ".1f"),
+            column("to the left", "N", left, ".1f"),
+            column("upwards", "N", beams.force[:, 2], ".1f"),
         ),
     )
-
-
-def clamp_tables(result: FormResult) -> list[Table]:
-    """Return, wire by wire, what is clamped to it and at which unstressed length from its start."""
-    tables = (_clamp_table(result, wire.name) for wire in result.wires)
-    return [table for table in tables if table.columns[0].cells]
-
-
-def _clamp_table(result: FormResult, wire: str) -> Table:
-    droppers, ties, masses = result.droppers, result.ties, result.masses
-    named = [f"dropper {span}.{number}" for span, number in zip(droppers.span, droppers.number, strict=True)]
-    parts = [
-        _on(wire, droppers.lower_wire, named, droppers.x, droppers.contact_coordinate),
-        _on(wire, droppers.upper_wire, named, droppers.x, droppers.messenger_coordinate),
-        _on(wire, ties.host, list(ties.wire), ties.chainage, ties.coordinate),
-        _on(wire, masses.wire, [name or "mass" for name in masses.name], masses.chainage, masses.coordinate),
-        _on(
-            wire,
-            result.supports.wire,
-            [f"support {name}" for name in result.supports.support],
-            result.supports.chainage,
-            result.supports.sliding_coordinate,
-        ),
-    ]
-    rows = sorted((row for part in parts for row in part), key=lambda row: (row[2], row[0]))
-    return Table(
-        f"{wire[:1].upper()}{wire[1:]}: {len(rows)}",
-        (
-            column("clamp of", "", [row[0] for row in rows]),
-            column("chainage", "m", [row[1] for row in rows], ".3f"),
-            column("unstressed length from the wire's start", "m", [row[2] for row in rows], ".4f"),
-        ),
-        open=False,
-    )
-
-
-def _on(
-    wire: str, wires: tuple[str, ...], names: list[str], x: NDArray[np.float64], s: NDArray[np.float64]
-) -> list[tuple[str, float, float]]:
-    rows = zip(wires, names, x.tolist(), s.tolist(), strict=True)
-    return [(name, at, coordinate) for of, name, at, coordinate in rows if of == wire]
