@@ -54,6 +54,7 @@ class Page:
                 with self._panels.place("file"):
                     self._file = FileTab(session, partial(self._panels.is_open, "file"), self._rewrite)
                 self._panels.when_opened(self._file.refresh)
+                self._panels.when_opened(self._replay.refresh)
         self._show_state()
         self._solve()
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import logging
 from dataclasses import dataclass
 from time import perf_counter
-from typing import Any, Final
+from typing import Final
 
 from nicegui import run, ui
 
@@ -16,6 +16,7 @@ from catenaria.report.html.figures import support_places
 from catenaria.results import FormResult
 from catenaria.results.film import Film
 from catenaria.studio.documents import Document
+from catenaria.studio.figure import LiveFigure
 from catenaria.studio.plots import Figure
 from catenaria.studio.replay_plots import error_figure, frame_count, frame_figures, told
 from catenaria.studio.state import Session
@@ -86,6 +87,7 @@ class Replay:
         self.dark = False
         self._session = session
         self._films: tuple[Film, ...] = ()
+        self._live: list[LiveFigure] = []
         self._supports: dict[str, float] = {}
         self._filmed: Document | None = None
         self._work: _Work | None = None
@@ -115,8 +117,14 @@ class Replay:
         self._films, self._filmed = (), None
         self._player.deactivate()
         self._place.clear()
+        self._live = []
         self._said.text = _READY
         self._enable()
+
+    def refresh(self) -> None:
+        """Draw in a tab that was not seen, where the browser makes all figures anew."""
+        for figure in self._live:
+            figure.update()
 
     def redraw(self) -> None:
         """Draw the state at which the slider is."""
@@ -134,16 +142,12 @@ class Replay:
         return int(self._slider.value or 0)
 
     def _draw(self, figures: list[Figure]) -> None:
-        elements = list(self._place.default_slot.children)
-        if elements:
-            for element, figure in zip(elements, figures, strict=True):
-                shown: Any = element
-                shown.figure = figure
-                shown.update()
+        if self._live:
+            for element, figure in zip(self._live, figures, strict=True):
+                element.redraw(figure)
             return
         with self._place:
-            for figure in figures:
-                ui.plotly(figure).classes("figure").style(f"height: {figure['layout']['height']}px")
+            self._live = [LiveFigure(figure) for figure in figures]
 
     async def _make(self) -> None:
         outcome, document = self._session.outcome, self._session.document
