@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pickle
 from dataclasses import FrozenInstanceError, fields, replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -61,9 +62,21 @@ def test_beyond_the_line(paper: catenaria.Result, chainage: float) -> None:
         paper.at(chainage)
 
 
+@pytest.mark.parametrize("chainage", ["97.5 m", None, [97.5], 1j])
+def test_what_is_no_number(paper: catenaria.Result, chainage: Any) -> None:
+    with pytest.raises(catenaria.InconsistentInputError, match="a number of metres"):
+        paper.at(chainage)
+
+
+@pytest.mark.parametrize("number", [97, np.float64(97.0), np.float32(97.0), np.int64(97)])
+def test_every_kind_of_number(paper: catenaria.Result, number: Any) -> None:
+    assert paper.at(number) == paper.at(97.0)
+
+
 def test_the_nearest_dropper(paper: catenaria.Result) -> None:
     near = paper.at(65.0 + 13.5 + 4.7).dropper
     assert near is not None
+    assert (near.lower_wire, near.upper_wire) == ("contact wire", "messenger wire")
     assert (near.span, near.number, near.chainage) == (2, 2, 78.5)
     row = paper.droppers.query("span == 2 and dropper == 2").iloc[0]
     assert (near.length, near.cut_length, near.force) == tuple(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 from pathlib import Path
 from typing import Any
@@ -35,6 +36,16 @@ def test_the_code_runs(scope: dict[str, Any]) -> None:
     assert scope["study"].cases[0].name == "summer"
     assert (scope["folder"] / "profile.png").stat().st_size > 10_000
     assert catenaria.load_result(scope["folder"] / "results" / "three_spans") == result
+    assert {"profile.dxf", "plan.dxf", "line.vtu"} < {
+        path.name for path in (scope["folder"] / "drawings").iterdir()
+    }
+
+
+def test_a_line_of_one_s_own_is_solved_and_kept(scope: dict[str, Any]) -> None:
+    [said] = re.findall(r"tolist\(\)\[:3\]  # (\[.*\])", PAGE)
+    found = catenaria.solve(scope["mine"], rebuild="none").droppers["cut_length_m"]
+    assert found.round(3).tolist()[:3] == json.loads(said)
+    assert catenaria.load(scope["folder"] / "mine.json") == scope["mine"]
 
 
 def test_the_page_shows_what_a_terminal_shows(scope: dict[str, Any]) -> None:
@@ -45,5 +56,5 @@ def test_the_page_shows_what_a_terminal_shows(scope: dict[str, Any]) -> None:
 def test_the_page_names_all_names() -> None:
     named = set(re.findall(r"`(\w+)", PAGE))
     assert set(catenaria.__all__) <= named
-    members = {name for name in vars(catenaria.Result) if not name.startswith("_")}
+    members = {name for name in dir(catenaria.Result) if not name.startswith("_")}
     assert members | {"form"} <= named

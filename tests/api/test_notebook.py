@@ -9,6 +9,7 @@ from xml.etree import ElementTree
 import pytest
 
 import catenaria
+from catenaria.line.summary import summarise
 from catenaria.results import NOT_AUDITED
 
 
@@ -77,3 +78,33 @@ def test_slack_droppers_are_said(paper: catenaria.Result) -> None:
     slack = catenaria.Result(replace(paper.form, droppers=replace(droppers, force_bottom=force)))
     assert "2 SLACK" in repr(slack)
     assert "none slack" in repr(paper)
+
+
+@pytest.mark.parametrize("name", ["paper", "stitched"])
+def test_a_line_says_in_a_few_lines_what_it_is(name: str, request: pytest.FixtureRequest) -> None:
+    line: catenaria.Line = request.getfixturevalue(name).line
+    said = repr(line)
+    assert said == str(line)
+    assert len(said.splitlines()) < 60
+    assert len(said) < 3000 < len(line.model_dump_json())
+    for title, rows in summarise(line):
+        assert f"\n{title}\n" in f"\n{said}"
+        assert all(text in said for _, text in rows)
+
+
+def test_studies_say_in_one_line_what_they_are(paper: catenaria.Result) -> None:
+    study = paper.under({"summer": {"temperature": {"change": "40 K"}}})
+    assert repr(study) == "LoadStudy: Yang et al. 2017, three spans, method direct; cases: summer"
+    assert repr(study.cases[0]).startswith("CaseResult: summer, ")
+    elasticity = paper.elasticity(100.0, 5.0)
+    assert re.fullmatch(
+        r"ElasticityStudy: Yang et al. 2017, three spans, pushed with 100 N at \d+ points; "
+        r"[\d.]+ to [\d.]+ mm/N, non-uniformity [\d.]+ %",
+        repr(elasticity),
+    )
+    tolerance = paper.tolerance(samples=20, model="linear", seed=1)
+    assert re.fullmatch(
+        r"ToleranceStudy: Yang et al. 2017, three spans, 20 samples, linear; "
+        r"contact wire off by more than 5 mm in [\d.]+ % of them",
+        repr(tolerance),
+    )

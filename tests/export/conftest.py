@@ -86,6 +86,12 @@ def stitched() -> FormResult:
 
 
 @pytest.fixture
+def compound() -> FormResult:
+    """Return a line whose droppers hold two kinds of wires."""
+    return solved("compound")
+
+
+@pytest.fixture
 def curve() -> FormResult:
     return solved("curve_800m")
 

@@ -55,9 +55,29 @@ def test_so_do_lines_with_rigid_and_slack_droppers(unlike: FormResult, tmp_path:
 @pytest.mark.parametrize("name", ["plane", "space", "stitched"])
 def test_and_in_time(name: str, tmp_path: Path, request: pytest.FixtureRequest) -> None:
     write_exudyn(request.getfixturevalue(name), tmp_path, modes=1)
-    code, said = run(tmp_path, "--dynamic", "0.05")
+    code, said = run(tmp_path, "--dynamic", "1")
     assert code == 0
     assert said["movement_m"] < 0.1e-6
+    assert said["tension_change_N"] < 1e-3
+    assert said["force_error"] < 1e-5
+
+
+def test_a_line_that_is_pushed_swings_in_its_first_mode(plane: FormResult, tmp_path: Path) -> None:
+    """A velocity v in the mode of circular frequency w takes it as far as v/w: time does pass."""
+    write_exudyn(plane, tmp_path, modes=1)
+    with np.load(tmp_path / "modes.npz") as modes:
+        omega, shape = 2.0 * np.pi * modes["frequency"][0], modes["shape"][:, 0]
+    line = line_in_exudyn.read(tmp_path, inertia=True)
+    line.solve()
+    count = 6 * line.arrays["node_position"].shape[0]
+    data, initial = line.mbs.systemData, line.exu.ConfigurationType.Initial
+    velocity = np.array(data.GetODE2Coordinates_t(configuration=initial))
+    velocity[:count] = 0.01 * shape[:count] / np.abs(shape[:count]).max()
+    data.SetODE2Coordinates_t(velocity.tolist(), configuration=initial)
+    before = line.tensions()
+    line.move(0.5 * np.pi / omega)
+    assert line.farthest == pytest.approx(0.01 / omega, rel=0.02)
+    assert np.abs(line.tensions() - before).max() > 5e-3
 
 
 @pytest.mark.parametrize(
@@ -118,7 +138,7 @@ def test_natural_frequencies_are_those_of_exudyn(tmp_path: Path) -> None:
     write_exudyn(solve(Line.model_validate(line), rebuild="none"), tmp_path, modes=1)
     wanted = frequencies(tmp_path, 20)
     peer = line_in_exudyn.read(tmp_path, inertia=True)
-    peer.solve(0.0)
+    peer.solve()
     found = peer.mbs.ComputeODE2Eigenvalues(
         ignoreAlgebraicEquations=False, convert2Frequencies=True, numberOfEigenvalues=20
     )[0]

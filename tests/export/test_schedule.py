@@ -10,7 +10,7 @@ import pytest
 
 from catenaria.errors import InconsistentInputError
 from catenaria.export.clamps import clamp_columns
-from catenaria.export.schedule import rounded_lengths, schedule_columns, write_schedule
+from catenaria.export.schedule import dropper_labels, rounded_lengths, schedule_columns, write_schedule
 from catenaria.results import FormResult
 
 
@@ -36,6 +36,16 @@ def test_halves_are_rounded_upwards() -> None:
     )
 
 
+def test_every_dropper_has_a_name_of_its_own(every: FormResult) -> None:
+    names, droppers = dropper_labels(every), every.droppers
+    assert len(set(names)) == len(names) == droppers.x.size
+    numbers = [f"{span}.{number}" for span, number in zip(droppers.span, droppers.number, strict=True)]
+    assert [name.removeprefix("H") for name in names] == numbers
+    hangers = [name.startswith("H") for name in names]
+    assert hangers == [wire == "auxiliary messenger" for wire in droppers.upper_wire]
+    assert any(hangers) == (len(set(numbers)) < len(numbers))
+
+
 def test_csv(every: FormResult, tmp_path: Path) -> None:
     file = tmp_path / "schedule.csv"
     write_schedule(every, file, 5e-3)
@@ -45,6 +55,9 @@ def test_csv(every: FormResult, tmp_path: Path) -> None:
     lengths = [float(row["cut_length_m"]) for row in rows]
     np.testing.assert_allclose(lengths, every.droppers.cut_length, rtol=0.0, atol=5.1e-6)
     assert {row["cut_length_rounded_m"][-3:] for row in rows} <= {"000", "500"}  # of 1.23500
+    assert {float(row["reference_temperature_degC"]) for row in rows} == {
+        every.inputs["reference_temperature"]
+    }
 
 
 def test_clamps_are_marked_in_order_and_at_the_found_coordinates(every: FormResult) -> None:

@@ -38,7 +38,12 @@ def test_the_schema_is_one_and_knows_all_columns_in_order(plane: FormResult) -> 
     Draft202012Validator.check_schema(tables_schema())
     for name, table in tables_schema()["properties"]["tables"]["properties"].items():
         assert list(table["properties"]) == list(TABLES[name](plane))
-        assert all(column["description"][-1] == "." for column in table["properties"].values())
+        for column, explained in table["properties"].items():
+            text, suffix = explained["description"], column.rpartition("_")[2]
+            assert text[0].isupper()
+            assert text[-1] == "."
+            if suffix in ("m", "mm", "N", "Nm", "kg", "deg", "degC"):
+                assert " In " in text
 
 
 def without_column(document: dict[str, Any]) -> None:

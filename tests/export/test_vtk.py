@@ -29,8 +29,35 @@ def test_wires_droppers_and_arms(every: FormResult, tmp_path: Path) -> None:
     np.testing.assert_array_equal(force[kind == DROPPER], droppers.force_bottom)
     np.testing.assert_array_equal(mesh.points[cells[kind == DROPPER, 0]], droppers.position_bottom)
     np.testing.assert_array_equal(mesh.points[cells[kind == DROPPER, 1]], droppers.position_top)
+    np.testing.assert_array_equal(mesh.point_data["tension_N"][cells[kind == DROPPER, 1]], droppers.force_top)
     np.testing.assert_array_equal(force[kind == ARM], every.arms.axial)
     assert np.count_nonzero(kind == CANTILEVER) == len(every.cantilevers.support)
+
+
+def test_every_value_is_there_but_forces_along_cantilevers(space: FormResult, tmp_path: Path) -> None:
+    write_vtu(space, tmp_path / "line.vtu")
+    mesh = meshio.read(tmp_path / "line.vtu")
+    cells, kind = mesh.cells_dict["line"], mesh.cell_data["kind"][0]
+    beams = cells[kind == CANTILEVER].ravel()
+    for name, values in mesh.point_data.items():
+        known = np.isfinite(values)
+        unknown = name in ("tension_N", "moment_Nm", "curvature_per_m")
+        assert set(np.flatnonzero(~known)) == (set(beams) if unknown else set())
+
+
+def test_places_in_the_canted_track_frame(curve: FormResult, tmp_path: Path) -> None:
+    write_vtu(curve, tmp_path / "line.vtu")
+    mesh = meshio.read(tmp_path / "line.vtu")
+    cells, kind = mesh.cells_dict["line"], mesh.cell_data["kind"][0]
+    droppers, arms, data = curve.droppers, curve.arms, mesh.point_data
+    for end, lateral, height in (
+        (cells[kind == DROPPER, 0], droppers.stagger_bottom, droppers.height),
+        (cells[kind == DROPPER, 1], droppers.stagger_top, droppers.messenger_height),
+        (cells[kind == ARM, 0], arms.hinge_stagger, arms.hinge_height),
+    ):
+        np.testing.assert_allclose(data["lateral_m"][end], lateral, rtol=0.0, atol=1e-6)
+        np.testing.assert_allclose(data["height_m"][end], height, rtol=0.0, atol=1e-6)
+        assert np.abs(mesh.points[end, 2] - height).max() > 1e-3  # which is another one
 
 
 def test_curvature_between_droppers_is_weight_by_tension(plane: FormResult, tmp_path: Path) -> None:

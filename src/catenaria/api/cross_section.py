@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from numbers import Real
 
 import numpy as np
 
@@ -48,6 +49,8 @@ class NearestDropper:
         Between the axes of its wires, and to be cut [m].
     force : float
         With which it lifts its lower wire [N].
+    lower_wire, upper_wire : str
+        What it lifts, and from what it hangs.
     """
 
     span: int
@@ -56,11 +59,13 @@ class NearestDropper:
     length: float
     cut_length: float
     force: float
+    lower_wire: str
+    upper_wire: str
 
     def __str__(self) -> str:
         return (
             f"{self.number} of span {self.span} at {self.chainage:.3f} m, {self.length:.4f} m long, "
-            f"lifts {self.force:.2f} N"
+            f"lifts the {self.lower_wire} with {self.force:.2f} N"
         )
 
 
@@ -111,8 +116,10 @@ def cross_section(form: FormResult, chainage: float) -> CrossSection:
     Raises
     ------
     InconsistentInputError
-        If no wire is there.
+        If no wire is there, or it is no number.
     """
+    if not isinstance(chainage, Real):
+        raise InconsistentInputError(f"a chainage is a number of metres, not {chainage!r}")
     wires = tuple(_point(wire, chainage) for wire in form.wires if _crosses(wire.profile, chainage))
     if not wires:
         starts, ends = zip(*(_reach(wire.profile) for wire in form.wires), strict=True)
@@ -149,4 +156,6 @@ def _nearest(form: FormResult, chainage: float) -> NearestDropper | None:
         float(droppers.length[i]),
         float(droppers.cut_length[i]),
         float(droppers.force_bottom[i]),
+        droppers.lower_wire[i],
+        droppers.upper_wire[i],
     )

@@ -5,12 +5,12 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 from catenaria import workflow
 from catenaria.api import notebook, summary
 from catenaria.api.cross_section import CrossSection, cross_section
+from catenaria.api.output import Output
 from catenaria.api.plots import Plots
 from catenaria.errors import InconsistentInputError
 from catenaria.line import Line
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Result:
+class Result(Output):
     """What was found for a line.
 
     Every table is a new `pandas.DataFrame` in full precision, whose column names carry the unit as suffix
@@ -43,8 +43,6 @@ class Result:
     form : FormResult
         The same as arrays in SI units.
     """
-
-    form: FormResult
 
     @property
     def name(self) -> str:
@@ -168,7 +166,7 @@ class Result:
         CrossSection at 97.500 m
           contact wire     0.0000 m high, 0.0000 m to the left, 15000.1 N
           messenger wire   0.9657 m high, 0.0000 m to the left, 14992.6 N
-          nearest dropper  4 of span 2 at 97.500 m, 0.9657 m long, lifts 86.05 N
+          nearest dropper  4 of span 2 at 97.500 m, 0.9657 m long, lifts the contact wire with 86.05 N
         """
         return cross_section(self.form, chainage)
 
@@ -176,28 +174,6 @@ class Result:
     def plot(self) -> Plots:
         """Figures: ``result.plot.profile()``, ``plan()``, ``tension(wire)``, ``moments()``."""
         return Plots(self.form)
-
-    def save(self, folder: str | os.PathLike[str], figures: bool = True) -> tuple[Path, ...]:
-        """Write everything into a folder, as ``catenaria solve --out`` does: all of it or nothing.
-
-        Parameters
-        ----------
-        folder : path
-            Where to; an earlier result in it is replaced, anything else is not touched.
-        figures : bool
-            Whether to draw figures.
-
-        Returns
-        -------
-        tuple of Path
-            The files.
-
-        Raises
-        ------
-        InconsistentInputError
-            If the folder holds something that is not an earlier result.
-        """
-        return workflow.write(self.form, folder, figures)
 
     def under(self, cases: LoadCases | str | os.PathLike[str] | Mapping[str, Any]) -> LoadStudy:
         """Return the line, built with the lengths that were found, under load cases.

@@ -7,8 +7,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from catenaria.export.schedule import dropper_labels
 from catenaria.report.columns import Columns
+from catenaria.report.names import dropper_names
 from catenaria.results import FormResult
 
 
@@ -49,14 +49,14 @@ def clamp_columns(result: FormResult) -> Columns:
 def _marks(result: FormResult) -> Iterator[_Mark]:
     index = {form.name: k for k, form in enumerate(result.wires)}
     droppers, supports, ties, masses = result.droppers, result.supports, result.ties, result.masses
-    labels = [f"dropper {label}" for label in dropper_labels(result)]
+    names = dropper_names(result)
     ends = zip(ties.end.tolist(), ties.wire, strict=True)
     held = [f"support {name}" for name in supports.support]
     tied = [f"{('start', 'end')[end]} of {wire}" for end, wire in ends]
     for wires, what, s, chainage, support in (
         (supports.wire, held, supports.sliding_coordinate, supports.chainage, True),
-        (droppers.lower_wire, labels, droppers.contact_coordinate, droppers.x, False),
-        (droppers.upper_wire, labels, droppers.messenger_coordinate, droppers.x, False),
+        (droppers.lower_wire, names, droppers.contact_coordinate, droppers.x, False),
+        (droppers.upper_wire, names, droppers.messenger_coordinate, droppers.x, False),
         (ties.host, tied, ties.coordinate, ties.chainage, False),
         (masses.wire, list(masses.name), masses.coordinate, masses.chainage, False),
     ):

@@ -2,41 +2,27 @@
 
 from __future__ import annotations
 
-import io
-from collections.abc import Generator, Iterator
-from contextlib import contextmanager
+from itertools import pairwise
 from pathlib import Path
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from catenaria.export.libraries import library
+from catenaria.export.drawing import TEXT, Anchor, Drawing, text_length
 from catenaria.export.schedule import dropper_labels, rounded_lengths
 from catenaria.line import Line
+from catenaria.line.alignment import Alignment
 from catenaria.results import FormResult
 
 FloatArray = NDArray[np.float64]
 
 EXAGGERATION: Final = 10.0  # of heights in the profile
 
-LAYERS: Final = {  # colours by AutoCAD's index
-    "CONTACT_WIRE": 1,
-    "AUXILIARY_MESSENGER": 6,
-    "MESSENGER_WIRE": 150,
-    "STITCH_WIRE": 4,
-    "MID_POINT_ANCHOR": 30,
-    "DROPPERS": 3,
-    "SUPPORTS": 8,
-    "ARMS": 2,
-    "CANTILEVERS": 9,
-    "TRACK": 7,
-    "LABELS": 7,
-}
-_TEXT: Final = 0.4  # m high
-_GAP: Final = 0.1  # m between what is labelled and its label
+_GAP: Final = 0.2  # m between what is labelled and its label
 _STEP: Final = 5.0  # m of chainage between points of the track
 _HALF_MARK: Final = 1.0  # m to either side of the track, for a support in plan
+_SCALE: Final = 4.0  # m of chainage before the line, for the scale of heights
 
 
 def write_profile_dxf(result: FormResult, file: Path, step: float) -> None:
@@ -53,39 +39,25 @@ def write_profile_dxf(result: FormResult, file: Path, step: float) -> None:
 
     Notes
     -----
-    Units are metres; layers are named by what is on them. Heights are those in the canted track frame.
+    Units are metres; layers are named by what is on them. Heights are those in the canted track frame. Labels
+    of droppers stand below the contact wire, of those that hold another wire above what they hang from.
 
     Raises
     ------
     UnsupportedError
         If ezdxf is not installed.
     """
-    drawing = _Drawing()
+    drawing = Drawing()
     for form in result.wires:
         drawing.path(_layer(form.role), _profile_points(form.profile.chainage, form.profile.height))
-    lengths = rounded_lengths(result.droppers.cut_length, step)
-    digits = max(3, len(f"{step:g}".partition(".")[2]))
-    droppers = result.droppers
-    ends = zip(droppers.x, droppers.height, droppers.messenger_height, strict=True)
-    for label, length, (x, low, high) in zip(dropper_labels(result), lengths, ends, strict=True):
-        points = _profile_points(np.array([x, x]), np.array([low, high]))
-        drawing.path("DROPPERS", points)
-        at = points.mean(axis=0) - np.array([_GAP, 0.0, 0.0])
-        drawing.text(f"{label}  {length:.{digits}f} m", at, rotation=90.0)
-    for name, x, height in _supports(result):
-        foot, head = _profile_points(np.array([x, x]), np.array([0.0, height]))
-        drawing.path("SUPPORTS", np.stack((foot, head)))
-        drawing.text(name, head + np.array([_GAP, _GAP, 0.0]))
-    supports, arms = result.supports, result.arms
-    held = dict(zip(zip(supports.support, supports.wire, strict=True), supports.height.tolist(), strict=True))
-    for name, wire, x, hinge in zip(arms.support, arms.wire, arms.chainage, arms.hinge_height, strict=True):
-        drawing.path("ARMS", _profile_points(np.array([x, x]), np.array([hinge, held[name, wire]])))
+    lowest = _droppers_in_profile(drawing, result, step)
+    _supports_in_profile(drawing, result, lowest)
     start, end = _reach(result)
     drawing.path("TRACK", _profile_points(np.array([start, end]), np.zeros(2)))
-    note = (
-        f"{result.name}: profile, heights {EXAGGERATION:g} times exaggerated, metres, cut lengths of droppers"
-    )
-    drawing.text(note, np.array([start, -1.0, 0.0]))
+    _scale(drawing, start - _SCALE, max(float(form.profile.height.max()) for form in result.wires))
+    note = f"profile, metres, heights above the track {EXAGGERATION:g} times exaggerated"
+    labels = "chainages of supports, lengths of spans, cut lengths of droppers"
+    drawing.text(f"{result.name}: {note}; {labels}", (start, lowest - 5.0 * TEXT))
     drawing.write(file)
 
 
@@ -97,7 +69,7 @@ def write_plan_dxf(result: FormResult, file: Path) -> None:
     UnsupportedError
         If ezdxf is not installed.
     """
-    drawing, alignment = _Drawing(), Line.model_validate(result.inputs).alignment
+    drawing, alignment = Drawing(), Line.model_validate(result.inputs).alignment
     for form in result.wires:
         profile = form.profile
         drawing.path(_layer(form.role), np.column_stack((profile.x, profile.y, profile.z)))
@@ -109,13 +81,14 @@ def write_plan_dxf(result: FormResult, file: Path) -> None:
     ):
         for points in np.stack((starts, ends), axis=1):
             drawing.path(layer, points)
-    for label, at in zip(dropper_labels(result), droppers.position_bottom, strict=True):
-        drawing.text(label, at + np.array([0.0, _GAP, 0.0]))
+    _droppers_in_plan(drawing, result, alignment)
     for name, x, _ in _supports(result):
         frames = alignment.frames(np.array([x, x]))
         mark = frames.origin + np.array([[-_HALF_MARK], [_HALF_MARK]]) * frames.left
         drawing.path("SUPPORTS", mark)
-        drawing.text(name, mark[1])
+        turned, upright = _along(frames.left[1])
+        place = mark[1] + _GAP * frames.along[1]
+        drawing.text(name, place, "MIDDLE_LEFT" if upright else "MIDDLE_RIGHT", turned)
     start, end = _reach(result)
     count = int(np.ceil((end - start) / _STEP)) + 1
     drawing.path("TRACK", alignment.frames(np.linspace(start, end, count)).origin)
@@ -124,49 +97,72 @@ def write_plan_dxf(result: FormResult, file: Path) -> None:
     drawing.write(file)
 
 
-@contextmanager
-def _without_date(options: Any) -> Generator[None, None, None]:
-    """Let ezdxf write no date and no random name, so that equal drawings give equal files."""
-    before = options.write_fixed_meta_data_for_testing
-    options.write_fixed_meta_data_for_testing = True
-    try:
-        yield
-    finally:
-        options.write_fixed_meta_data_for_testing = before
+def _supports_in_profile(drawing: Drawing, result: FormResult, lowest: float) -> None:
+    """Draw supports, their arms, and the lengths of spans between them below everything else."""
+    places = _supports(result)
+    for name, x, height in places:
+        foot, head = _profile_points(np.array([x, x]), np.array([0.0, height]))
+        drawing.path("SUPPORTS", np.stack((foot, head)))
+        drawing.text(f"{name}  {x:.2f} m", head + _GAP)
+    for (_, x, _), (_, following, _) in pairwise(places):
+        drawing.text(f"{following - x:.2f} m", (0.5 * (x + following), lowest - _GAP), "TOP_CENTER")
+    supports, arms = result.supports, result.arms
+    held = dict(zip(zip(supports.support, supports.wire, strict=True), supports.height.tolist(), strict=True))
+    for name, wire, x, hinge in zip(arms.support, arms.wire, arms.chainage, arms.hinge_height, strict=True):
+        drawing.path("ARMS", _profile_points(np.array([x, x]), np.array([hinge, held[name, wire]])))
 
 
-class _Drawing:
-    """A DXF document with the layers of lines."""
+def _droppers_in_profile(drawing: Drawing, result: FormResult, step: float) -> float:
+    """Draw droppers and their labels, and return down to where they or the track reach."""
+    droppers = result.droppers
+    digits = max(3, len(f"{step:g}".partition(".")[2]))
+    contact = {form.name for form in result.wires if form.role == "contact wire"}
+    ends = np.stack((droppers.height, droppers.messenger_height), axis=1)
+    taken: dict[tuple[str, int], float] = {}
+    lowest = 0.0
+    names = zip(dropper_labels(result), rounded_lengths(droppers.cut_length, step), strict=True)
+    places = zip(names, droppers.x.tolist(), ends, droppers.lower_wire, strict=True)
+    for (name, length), x, heights, lower in places:
+        points = _profile_points(np.array([x, x]), heights)
+        drawing.path("DROPPERS", points)
+        text = f"{name}  {length:.{digits}f} m"
+        anchor: Anchor = "MIDDLE_RIGHT" if lower in contact else "MIDDLE_LEFT"
+        row = next(k for k in range(len(taken) + 1) if x - taken.get((anchor, k), -np.inf) > 1.5 * TEXT)
+        taken[anchor, row] = x
+        off = _GAP + row * text_length(text)
+        y = points[0, 1] - off if lower in contact else points[1, 1] + off
+        drawing.text(text, (x, y), anchor, rotation=90.0)
+        lowest = min(lowest, y - text_length(text))
+    return lowest
 
-    def __init__(self) -> None:
-        ezdxf = library("ezdxf", "ezdxf", "DXF")
-        self._options: Any = ezdxf.options
-        with _without_date(self._options):
-            self._document: Any = ezdxf.new("R2010", setup=False, units=6)  # metres
-        self._document.header["$MEASUREMENT"] = 1  # metric
-        for name, colour in LAYERS.items():
-            self._document.layers.add(name, color=colour)
-        self._space: Any = self._document.modelspace()
 
-    def path(self, layer: str, points: FloatArray) -> None:
-        """Add a line or polyline through points, shape (n, 3)."""
-        attributes = {"layer": layer}
-        if points.shape[0] == 2:
-            self._space.add_line(*points.tolist(), dxfattribs=attributes)
-        else:
-            self._space.add_polyline3d(points.tolist(), dxfattribs=attributes)
+def _scale(drawing: Drawing, x: float, highest: float) -> None:
+    """Draw a scale of heights, with a tick for every metre."""
+    drawing.path("SCALE", _profile_points(np.array([x, x]), np.array([0.0, highest])))
+    for height in range(int(highest) + 1):
+        tick = _profile_points(np.array([x, x + 1.0]), np.full(2, float(height)))
+        drawing.path("SCALE", tick)
+        drawing.text(f"{height} m", tick[0] - np.array([_GAP, 0.0]), "MIDDLE_RIGHT")
 
-    def text(self, text: str, at: FloatArray, rotation: float = 0.0) -> None:
-        """Add a label."""
-        attributes = {"layer": "LABELS", "height": _TEXT, "rotation": rotation, "insert": at.tolist()}
-        self._space.add_text(" ".join(text.split()), dxfattribs=attributes)
 
-    def write(self, file: Path) -> None:
-        """Write the document; equal drawings give equal files."""
-        stream = io.StringIO()
-        with _without_date(self._options):
-            self._document.write(stream)
-        file.write_text(stream.getvalue(), encoding="utf-8", newline="\n")
+def _droppers_in_plan(drawing: Drawing, result: FormResult, alignment: Alignment) -> None:
+    """Write the labels of droppers along the track, on the side of the wire that is away from the track."""
+    feet, frames = result.droppers.position_bottom, alignment.frames(result.droppers.x)
+    beyond = np.einsum("ni,ni->n", (feet - frames.origin)[:, :2], frames.left[:, :2])
+    sides = np.where(beyond >= 0.0, 1.0, -1.0)[:, None] * frames.left
+    for label, foot, side in zip(dropper_labels(result), feet, sides, strict=True):
+        turned, upright = _along(side)
+        drawing.text(label, foot + _GAP * side, "BOTTOM_CENTER" if upright else "TOP_CENTER", turned)
+
+
+def _along(side: FloatArray) -> tuple[float, bool]:
+    """Return the angle of text on this side of a line along the line [deg], and whether it stands upright.
+
+    Text is turned by half a turn where it would stand on its head.
+    """
+    angle = float(np.degrees(np.arctan2(-side[0], side[1])))
+    upright = -90.0 < angle <= 90.0
+    return (angle if upright else angle - float(np.copysign(180.0, angle))), upright
 
 
 def _layer(role: str) -> str:
@@ -174,15 +170,16 @@ def _layer(role: str) -> str:
 
 
 def _profile_points(chainage: FloatArray, height: FloatArray) -> FloatArray:
-    return np.column_stack((chainage, EXAGGERATION * height, np.zeros_like(chainage)))
+    return np.column_stack((chainage, EXAGGERATION * height))
 
 
-def _supports(result: FormResult) -> Iterator[tuple[str, float, float]]:
-    """Yield name, chainage and greatest height of what each support holds."""
-    supports = result.supports
+def _supports(result: FormResult) -> list[tuple[str, float, float]]:
+    """Return name, chainage and greatest height of what each support holds, along the line."""
+    supports, places = result.supports, list[tuple[str, float, float]]()
     for name in dict.fromkeys(supports.support):
         own = np.array([each == name for each in supports.support], dtype=np.bool_)
-        yield name, float(supports.chainage[own][0]), float(supports.height[own].max())
+        places.append((name, float(supports.chainage[own][0]), float(supports.height[own].max())))
+    return sorted(places, key=lambda place: place[1])
 
 
 def _reach(result: FormResult) -> tuple[float, float]:

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from catenaria.errors import InconsistentInputError
 from catenaria.numerics.rounding import rounded_half_up
 from catenaria.report.columns import Columns
+from catenaria.report.names import are_hangers
 from catenaria.report.tables import write_csv
 from catenaria.results import FormResult
 
@@ -68,14 +69,20 @@ def schedule_columns(result: FormResult, step: float) -> Columns:
         "height_error_mm": 1e3 * droppers.height_error,
         "stagger_m": droppers.stagger_bottom,
         "inclination_deg": np.degrees(droppers.inclination),
+        "reference_temperature_degC": np.full(rounded.size, reference_temperature(result)),
     }
 
 
+def reference_temperature(result: FormResult) -> float:
+    """Return the temperature at which unstressed and cut lengths hold [°C]."""
+    return float(result.inputs["reference_temperature"])
+
+
 def dropper_labels(result: FormResult) -> list[str]:
-    """Return the numbers of droppers in drawings and tables: 2.3 is the third of the second span."""
+    """Return names for drawings: 2.3 is the third dropper of the second span, H2.3 its third hanger."""
     droppers = result.droppers
-    pairs = zip(droppers.span.tolist(), droppers.number.tolist(), strict=True)
-    return [f"{span}.{number}" for span, number in pairs]
+    named = zip(are_hangers(result).tolist(), droppers.span.tolist(), droppers.number.tolist(), strict=True)
+    return [f"{'H' if hangs else ''}{span}.{number}" for hangs, span, number in named]
 
 
 def write_schedule(result: FormResult, file: Path, step: float) -> None:

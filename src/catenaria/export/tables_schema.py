@@ -15,6 +15,7 @@ _UNITS: Final = {
     "_m": "m",
     "_N": "N",
     "_kg": "kg",
+    "_degC": "degrees Celsius",
     "_deg": "degrees",
 }
 _KINDS: Final[dict[str, dict[str, Any]]] = {

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from catenaria.discretise.spatial.lay_out import lay_out
 from catenaria.export.libraries import library
 from catenaria.line import Line
+from catenaria.line.alignment import Alignment
 from catenaria.results import FormResult
 
 FloatArray = NDArray[np.float64]
@@ -47,8 +48,8 @@ def write_vtu(result: FormResult, file: Path) -> None:
     Cell data: ``kind`` (0 wire, 1 dropper, 2 steady arm, 3 cantilever), ``wire`` (number in the order of
     wires.csv from 0, of droppers that of their lower wire), ``number`` (of the dropper or arm in its table,
     from 0) and ``force_N``: tension in wires, droppers' pull on the lower wire, axial force in arms. Point
-    data: s_m, tension_N, moment_Nm, curvature_per_m, chainage_m, lateral_m, height_m; NaN where it has no
-    meaning.
+    data: s_m, tension_N, moment_Nm, curvature_per_m, chainage_m, lateral_m, height_m; droppers and arms do
+    not bend. Forces along cantilevers are not known: they are NaN.
 
     Raises
     ------
@@ -78,9 +79,9 @@ def write_vtu(result: FormResult, file: Path) -> None:
 
 
 def _strands(result: FormResult) -> Iterator[Strand]:
-    laid = lay_out(Line.model_validate(result.inputs)).wires
+    line = Line.model_validate(result.inputs)
     index = {wire.name: k for k, wire in enumerate(result.wires)}
-    for k, (form, wire) in enumerate(zip(result.wires, laid, strict=True)):
+    for k, (form, wire) in enumerate(zip(result.wires, lay_out(line).wires, strict=True)):
         profile = form.profile
         EJ = wire.section.EJ
         curvature = profile.moment / EJ if EJ > 0.0 else np.full_like(profile.moment, np.nan)
@@ -88,23 +89,38 @@ def _strands(result: FormResult) -> Iterator[Strand]:
         values = np.column_stack((profile.s, profile.tension, profile.moment, curvature, *track))
         points = np.column_stack((profile.x, profile.y, profile.z))
         yield Strand(WIRE, k, k, points, values, 0.5 * (profile.tension[1:] + profile.tension[:-1]))
-    droppers = result.droppers
-    for i, wire in enumerate(droppers.lower_wire):
-        ends = droppers.position_bottom[i], droppers.position_top[i]
-        yield _bar(DROPPER, index[wire], i, *ends, float(droppers.force_bottom[i]), float(droppers.x[i]))
-    arms = result.arms
-    for i, wire in enumerate(arms.wire):
-        ends = arms.hinge[i], arms.tip[i]
-        yield _bar(ARM, index[wire], i, *ends, float(arms.axial[i]), float(arms.chainage[i]))
-    beams = result.cantilevers
-    for i, (root, tip) in enumerate(zip(beams.root, beams.tip, strict=True)):
-        yield _bar(CANTILEVER, -1, i, root, tip, np.nan, np.nan)
+    droppers, arms, beams = result.droppers, result.arms, result.cantilevers
+    start = dict(zip(result.supports.support, result.supports.chainage.tolist(), strict=True))
+    for kind, wires, starts, ends, guess in (
+        (DROPPER, droppers.lower_wire, droppers.position_bottom, droppers.position_top, droppers.x),
+        (ARM, arms.wire, arms.hinge, arms.tip, arms.chainage),
+        (CANTILEVER, None, beams.root, beams.tip, np.array([start[name] for name in beams.support])),
+    ):
+        places = [(points, _in_track(line.alignment, points, guess)) for points in (starts, ends)]
+        for i in range(starts.shape[0]):
+            values = np.column_stack((_inner(result, kind, i), np.stack([track[i] for _, track in places])))
+            wire = -1 if wires is None else index[wires[i]]
+            points = np.stack([points[i] for points, _ in places])
+            yield Strand(kind, wire, i, points, values, values[:1, _POINT.index("tension_N")])
 
 
-def _bar(
-    kind: int, wire: int, number: int, start: FloatArray, end: FloatArray, force: float, chainage: float
-) -> Strand:
-    values = np.full((2, len(_POINT)), np.nan)
-    values[:, _POINT.index("tension_N")] = force
-    values[:, _POINT.index("chainage_m")] = chainage
-    return Strand(kind, wire, number, np.stack((start, end)), values, np.array([force]))
+def _inner(result: FormResult, kind: int, i: int) -> FloatArray:
+    """Return s, tension, moment and curvature at both ends of a dropper, arm or cantilever, shape (2, 4)."""
+    values = np.zeros((2, 4))
+    if kind == DROPPER:
+        droppers = result.droppers
+        values[1, 0] = droppers.unstressed_length[i]
+        values[:, 1] = droppers.force_bottom[i], droppers.force_top[i]
+    elif kind == ARM:
+        values[1, 0] = result.arms.length[i]
+        values[:, 1] = result.arms.axial[i]
+    else:
+        values[1, 0] = np.linalg.norm(result.cantilevers.tip[i] - result.cantilevers.root[i])
+        values[:, 1:] = np.nan
+    return values
+
+
+def _in_track(alignment: Alignment, points: FloatArray, guess: FloatArray) -> FloatArray:
+    """Return chainages, lateral offsets and heights of points, shape (n, 3)."""
+    frames = alignment.frames(alignment.locate(points, guess))
+    return np.column_stack((frames.chainage, frames.lateral(points), frames.height(points)))

@@ -13,10 +13,11 @@ import numpy as np
 from catenaria import __version__
 from catenaria.export.clamps import clamp_columns
 from catenaria.export.libraries import library
-from catenaria.export.schedule import schedule_columns
+from catenaria.export.schedule import reference_temperature, schedule_columns
 from catenaria.line import Line
 from catenaria.report.attached_columns import arm_columns
 from catenaria.report.columns import Columns, support_columns, wire_columns
+from catenaria.report.names import dropper_names
 from catenaria.results import FormResult
 
 _UNITS: Final = {
@@ -26,6 +27,7 @@ _UNITS: Final = {
     "_deg": ("°", "0.00"),
 }
 _ROUNDED: Final = "cut_length_rounded_m"
+_NOTHING: Final = 1e-9  # what is nearer to zero is zero: shown with few digits it would be -0.0
 _NO_DATE: Final = datetime.datetime(1980, 1, 1)  # equal results give equal files
 _A4: Final = 9  # paper size in Excel's numbering
 _WIDEST: Final = 26  # characters
@@ -66,29 +68,31 @@ def write_xlsx(result: FormResult, file: Path, step: float) -> None:
         If nothing is left of a dropper that is rounded.
     """
     xlsxwriter = library("xlsxwriter", "XlsxWriter", "XLSX")
-    schedule = schedule_columns(result, step)
+    schedule = {"name": dropper_names(result), **schedule_columns(result, step)}
+    schedule.pop("reference_temperature_degC")  # is said once for all
     with xlsxwriter.Workbook(str(file), {"strings_to_formulas": False, "strings_to_urls": False}) as workbook:
         workbook.set_properties(
             {"title": f"Dropper schedule: {result.name}", "created": _NO_DATE, "comments": _origin(result)}
         )
         book = _Book(workbook, result.name, _formats(workbook, step))
         _summary(book, result, schedule, step)
+        warmth = f"{reference_temperature(result):g} °C"
         for number, name in _spans(result):
             own = np.asarray(schedule["span"]) == number
             rows: Columns = {column: np.asarray(values)[own] for column, values in schedule.items()}
-            text = f"{own.sum()} droppers. Cut lengths are rounded to {1e3 * step:g} mm."
+            text = f"{own.sum()} droppers. Cut lengths are rounded to {1e3 * step:g} mm and hold at {warmth}."
             book.sheet(f"Span {number}", f"Span {number}: {name}", text, rows, totals=True)
         for title, build, text in _TABLES:
             columns = build(result)
             if len(next(iter(columns.values()))):
-                book.sheet(title, title, text, columns)
+                book.sheet(title, title, text.format(warmth), columns)
 
 
 _TABLES: Final[tuple[tuple[str, Callable[[FormResult], Columns], str], ...]] = (
-    ("Wires", wire_columns, "Unstressed lengths are those between the first and the last support."),
+    ("Wires", wire_columns, "Unstressed lengths are those between the first and the last support, at {}."),
     ("Supports", support_columns, "Forces are those of the wires on their supports; z is upwards."),
     ("Arms", arm_columns, "Radial forces are positive where the wire pulls at the arm."),
-    ("Clamps", clamp_columns, "Distances along the unstressed wires, as they lie on the ground."),
+    ("Clamps", clamp_columns, "Distances along the unstressed wires, as they lie on the ground at {}."),
 )
 
 
@@ -99,14 +103,17 @@ def _origin(result: FormResult) -> str:
 def _formats(workbook: Any, step: float) -> Callable[[str], Any]:
     """Return a function from the name of a format to the format."""
     digits = next(n for n in range(7) if n == 6 or abs(round(step, n) - step) < 1e-9)
+    rounded = "0." + "0" * max(digits, 3)
+    sums = {_ROUNDED: rounded, "cut_length_m": _UNITS["_m"][1]}
     base: dict[str, dict[str, Any]] = {
         "title": {"bold": True, "font_size": 14},
         "text": {"italic": True, "font_color": "#555555"},
         "heading": {"bold": True, "text_wrap": True, "valign": "top", "bottom": 1, "bg_color": "#E8EEF4"},
         "total": {"bold": True, "top": 1},
+        **{f"total {name}": {"bold": True, "top": 1, "num_format": form} for name, form in sums.items()},
         "": {},
         **{suffix: {"num_format": form} for suffix, (_, form) in _UNITS.items()},
-        _ROUNDED: {"num_format": "0." + "0" * max(digits, 3), "bold": True, "bg_color": "#FFF6D6"},
+        _ROUNDED: {"num_format": rounded, "bold": True, "bg_color": "#FFF6D6"},
     }
     made = {name: workbook.add_format(properties) for name, properties in base.items()}
     return made.__getitem__
@@ -164,10 +171,15 @@ class _Book:
             sheet.set_column(j, j, min(max(longest, words, 8) + 2, _WIDEST))
 
     def _totals(self, sheet: Any, row: int, columns: Columns) -> None:
-        sheet.write_string(row, 0, "sum", self.form("total"))
+        """Write sums as formulas, so that they follow a length that somebody changes."""
         for j, (column, values) in enumerate(columns.items()):
+            sheet.write_blank(row, j, None, self.form("total"))
             if column in (_ROUNDED, "cut_length_m"):
-                sheet.write_number(row, j, float(np.sum(np.asarray(values))), self.form("_m"))
+                letter = chr(ord("A") + j)
+                formula = f"=SUM({letter}{_FIRST + 2}:{letter}{row})"
+                total = float(np.sum(np.asarray(values)))
+                sheet.write_formula(row, j, formula, self.form(f"total {column}"), total)
+        sheet.write_string(row, 0, "sum", self.form("total"))
 
 
 def _write(sheet: Any, row: int, column: int, value: Any, form: Any) -> None:
@@ -177,7 +189,7 @@ def _write(sheet: Any, row: int, column: int, value: Any, form: Any) -> None:
     elif isinstance(value, str):
         sheet.write_string(row, column, value, form)
     elif np.isfinite(value):
-        sheet.write_number(row, column, value, form)
+        sheet.write_number(row, column, value if abs(value) > _NOTHING else 0, form)
 
 
 def _spans(result: FormResult) -> Iterator[tuple[int, str]]:
@@ -201,14 +213,17 @@ def _summary(book: _Book, result: FormResult, schedule: Columns, step: float) ->
         "sum of rounded cut lengths": f"{rows[_ROUNDED].sum():.3f} m",
         "rounding step": f"{1e3 * step:g} mm",
         "cut length": "unstressed length less what the clamps bridge; halves are rounded upwards",
+        "lengths hold at": f"{reference_temperature(result):g} °C",
         "audit": _verdict(bool(result.audit.name), result.audit.passed),
         "rebuilt from the lengths": _verdict(bool(result.rebuilt.way), result.rebuilt.passed),
         "stopped because": result.stop_reason,
     }
     for i, (name, value) in enumerate(facts.items(), start=_FIRST):
         sheet.write_string(i, 0, name)
-        sheet.write_string(i, 2, value)
-    book.table(sheet, _FIRST + len(facts) + 1, _span_columns(result, rows))
+        sheet.write_string(i, 3, value)
+    headings = _FIRST + len(facts) + 1
+    book.table(sheet, headings, _span_columns(result, rows))
+    sheet.repeat_rows(headings)
 
 
 def _verdict(there: bool, passed: bool) -> str:

@@ -246,6 +246,9 @@ class CaseResult:
     pushed: Pushed
     iterations: int
 
+    def __repr__(self) -> str:
+        return f"CaseResult: {self.name}, at rest after {self.iterations} iterations"
+
 
 @dataclass(frozen=True)
 class LoadStudy:
@@ -274,3 +277,7 @@ class LoadStudy:
     before: LineState
     cases: tuple[CaseResult, ...]
     inputs: dict[str, Any]
+
+    def __repr__(self) -> str:
+        names = ", ".join(case.name for case in self.cases)
+        return f"LoadStudy: {self.line or 'a line without name'}, method {self.method}; cases: {names}"

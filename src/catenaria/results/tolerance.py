@@ -212,6 +212,13 @@ class ToleranceStudy:
     largest_difference: float
     installation: dict[str, Any]
 
+    def __repr__(self) -> str:
+        return (
+            f"ToleranceStudy: {self.line or 'a line without name'}, {self.samples} samples, {self.model}; "
+            f"contact wire off by more than {1e3 * self.tolerance:g} mm "
+            f"in {100.0 * self.event('leaving')[0]:.3g} % of them"
+        )
+
     def event(self, name: str) -> tuple[float, float, float]:
         """Return the probability of an event and its limits."""
         i = self.events.name.index(name)

@@ -103,10 +103,15 @@ def export(
     Raises
     ------
     InconsistentInputError
-        If the result cannot be read, or `out` holds what catenaria did not write.
+        If there is no such format, the result cannot be read, or `out` holds what catenaria did not write.
     UnsupportedError
         If a library is missing, or the result has no nodes and dynamics codes want them.
     """
+    unknown = [name for name in formats if name not in FORMATS]
+    if unknown or not formats:
+        raise InconsistentInputError(
+            f"there is no format {', '.join(map(repr, unknown)) or 'named'}; there is {', '.join(FORMATS)}"
+        )
     if not isinstance(result, FormResult):
         result = load_result(result)
     options, out = options or ExportOptions(), Path(out)

@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, TypeVar, cast
 
-from pydantic import ValidationError
-
-from catenaria.errors import InconsistentInputError
+from catenaria.errors import InconsistentInputError, LineFileError
 from catenaria.line.base import LineModel
+from catenaria.line.load import model_from
 
 Described = TypeVar("Described", bound=LineModel)
 
@@ -33,8 +32,8 @@ def vary(described: Described, change: Mapping[str, Any]) -> Described:
     for path, value in change.items():
         _replace(data, path.split("."), path, value)
     try:
-        return type(described).model_validate(data)
-    except ValidationError as error:
+        return model_from(data, type(described), type(described).__name__)
+    except LineFileError as error:
         raise InconsistentInputError(f"the changed values do not fit: {error}") from error
 
 
