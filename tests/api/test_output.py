@@ -57,3 +57,6 @@ def test_a_report(paper: catenaria.Result, tmp_path: Path) -> None:
     text = file.read_text(encoding="utf-8")
     assert paper.name in text
     assert "today, says the user" in text
+    assert '<section id="elasticity">' in text
+    paper.report(file, elasticity=False)
+    assert '<section id="elasticity">' not in file.read_text(encoding="utf-8")

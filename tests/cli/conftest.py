@@ -91,7 +91,12 @@ class FakeWorkflow:
         return self.result
 
     def write(
-        self, result: Any, folder: Path, figures: bool = True, report: bool = False
+        self,
+        result: Any,
+        folder: Path,
+        figures: bool = True,
+        report: bool = False,
+        progress: Callable[[str, int, int], None] | None = None,
     ) -> tuple[Path, ...]:
         if self.write_failure is not None:
             raise self.write_failure

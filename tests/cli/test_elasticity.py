@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 from pathlib import Path
 
 import pytest
@@ -35,6 +36,19 @@ def test_a_line_is_pushed(solved: Path) -> None:
     ):
         assert text in outcome.output
     assert (solved.parent / "line-elasticity" / "elasticity.png").exists()
+
+
+def test_spans_out_of_use_do_not_count(tmp_path: Path) -> None:
+    arguments = ["--spacing", "2m", "--no-figures", "--out", str(tmp_path / "out")]
+    outcome = RUN.invoke(app, ["elasticity", str(EXAMPLE.with_name("overlap.yaml")), *arguments])
+    assert outcome.exit_code == 0, outcome.output
+    assert "non-uniformity 51." in outcome.output
+    assert "Spans count from S3 to S19: in other spans the contact wire has no droppers, or is lifted." in (
+        outcome.output
+    )
+    with (tmp_path / "out" / "spans.csv").open(encoding="utf-8") as stream:
+        counted = [row["inner"] for row in csv.DictReader(stream)]
+    assert counted == ["False"] * 2 + ["True"] * 16 + ["False"] * 2
 
 
 def test_all_points_nonlinear_from_a_chainage_to_another(solved: Path, tmp_path: Path) -> None:

@@ -38,6 +38,17 @@ def test_the_same_again_is_the_same_file(solved: Path, tmp_path: Path) -> None:
     assert files[0].read_bytes() == files[1].read_bytes()
 
 
+def test_elasticity_is_part_of_it_unless_it_is_left_out(solved: Path, tmp_path: Path) -> None:
+    found: list[bool] = []
+    for options in ([], ["--no-elasticity"]):
+        outcome = RUN.invoke(app, ["report", str(solved), *options, "--out", str(tmp_path / "line.html")])
+        assert outcome.exit_code == 0, outcome.output
+        text = (tmp_path / "line.html").read_text(encoding="utf-8")
+        found.append('<section id="elasticity">' in text)
+    assert found == [True, False]
+    assert not solved.with_name("line-elasticity").exists()
+
+
 def test_checks_pass(solved: Path) -> None:
     outcome = RUN.invoke(app, ["checks", str(solved), "--speed", "200 km/h"])
     assert outcome.exit_code == 0, outcome.output
@@ -103,4 +114,6 @@ def test_solve_writes_a_report(tmp_path: Path) -> None:
     arguments = ["--rebuild", "none", "--no-figures", "--report", "--out", str(tmp_path / "line")]
     outcome = RUN.invoke(app, ["solve", str(EXAMPLE), *arguments])
     assert outcome.exit_code == 0, outcome.output
-    assert "<!DOCTYPE html>" in (tmp_path / "line" / "report.html").read_text(encoding="utf-8")
+    page = (tmp_path / "line" / "report.html").read_text(encoding="utf-8")
+    assert "<!DOCTYPE html>" in page
+    assert '<section id="elasticity">' in page

@@ -16,6 +16,7 @@ from catenaria.discretise.spatial.loaded import Devices, with_dropper_lengths
 from catenaria.errors import InconsistentInputError
 from catenaria.formfinding.direct import Direct
 from catenaria.line import Line, load_line
+from catenaria.loading import elasticity as module
 from catenaria.loading.between_nodes import between_nodes
 from catenaria.loading.built_line import BuiltLine
 from catenaria.loading.elasticity import Wanted, elasticity_of
@@ -271,6 +272,41 @@ def test_spans_and_places(paper: BuiltLine, study: ElasticityStudy) -> None:
     assert {points.span[0], points.span[-1]} == {1, 3}
     assert (np.diff(points.chainage) > 1e-6).all()
     assert np.diff(points.chainage).max() <= 0.5 + 1e-9
+
+
+def twin(data: dict[str, Any]) -> None:
+    data["second_contact_wire"] = {"spacing": 0.04}
+
+
+def curved(data: dict[str, Any]) -> None:
+    curve = {"start": 100.0, "length": 200.0, "radius": 3000.0, "transition": 40.0}
+    data["track"] = {"curves": [curve]}
+
+
+@pytest.mark.parametrize("changes", [(), (twin,), (curved,)], ids=["straight", "two wires", "curve"])
+def test_spans_count_in_which_the_contact_wire_is_in_use(
+    changes: tuple[Change, ...], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """At S2 the lifted wire is held: with the span behind it the non-uniformity would be 100 %."""
+    built = built_from("overlap", first_spans(6), *changes)
+    study = elasticity_of(built, Wanted(spacing=10.0))
+    assert study.spans.inner.tolist() == [False, False, True, True, True, False]
+    assert study.in_use.startswith("from S3 to S6: ")
+    used = (study.points.chainage >= study.supports[2]) & (study.points.chainage <= study.supports[5])
+    e = study.points.elasticity[used]
+    assert (study.largest, study.smallest) == (e.max(), e.min())
+    assert study.nonuniformity == pytest.approx((e.max() - e.min()) / (e.max() + e.min()))
+    assert study.nonuniformity < 0.6
+    monkeypatch.setattr(module, "used_contact_wires", lambda result: ())
+    assert elasticity_of(built, Wanted(spacing=10.0)).nonuniformity == pytest.approx(1.0)
+
+
+def test_where_the_contact_wire_is_nowhere_in_use_all_that_was_pushed_counts() -> None:
+    built = built_from("overlap", first_spans(6))
+    study = elasticity_of(built, Wanted(spacing=10.0, end=110.0))  # the first two spans
+    assert study.spans.inner.tolist() == [False, True]
+    assert study.in_use == ""
+    assert study.largest == study.spans.largest[1]
 
 
 def test_two_contact_wires_share_the_force() -> None:

@@ -47,6 +47,14 @@ def test_the_folder_holds_the_result(form: FormResult, tmp_path: Path) -> None:
     assert found.rebuilt.passed
     assert found.droppers.cut_length == pytest.approx(form.droppers.cut_length)
 
+    assert '<section id="elasticity">' in (tmp_path / "report.html").read_text(encoding="utf-8")
+
+
+def test_the_report_is_that_of_the_command(form: FormResult) -> None:
+    file = downloads.report_page(form)
+    assert file.content.decode() == workflow.report(form)
+    assert b'<section id="elasticity">' in file.content
+
 
 def test_a_form_that_is_not_confirmed_has_no_folder(
     form: FormResult, monkeypatch: pytest.MonkeyPatch

@@ -8,11 +8,11 @@ from pathlib import Path
 import pytest
 
 from catenaria import workflow
-from catenaria.errors import InconsistentInputError, UnsupportedError
+from catenaria.errors import InconsistentInputError, NotConvergedError, UnsupportedError
 from catenaria.loading.tolerance import Options
 from catenaria.results import FormResult, save_result
 from catenaria.results.elasticity import ElasticityStudy
-from catenaria.workflow import pdf
+from catenaria.workflow import pdf, studies
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "yang2017_three_span.yaml"
 CASES = "format: 1\ncases:\n  warm: {temperature: {change: 40 K}}\n  windy: {wind: {speed: 20 m/s}}\n"
@@ -44,9 +44,53 @@ def test_a_study_beside_the_result_counts(folder: Path, studied: ElasticityStudy
     assert check.value == pytest.approx(100.0 * studied.nonuniformity)
     assert check.limit == pytest.approx(25.0)
     assert check.verdict == ("passes" if studied.nonuniformity <= 0.25 else "fails")
-    page = workflow.report(folder)
+    page = workflow.report(folder, progress=refused)
     assert '<section id="elasticity">' in page
     assert "elasticity-1" in page
+    assert '<section id="elasticity">' not in workflow.report(folder, elasticity=False)
+
+
+def refused(part: str, done: int, of: int) -> None:
+    """Take notice of a study that should not be made."""
+    raise AssertionError(f"{part}: {done} of {of}")
+
+
+def test_without_a_study_the_report_makes_one(folder: Path, solved: FormResult) -> None:
+    told: list[str] = []
+    page = workflow.report(folder, progress=lambda part, done, of: told.append(part))
+    u = 100.0 * workflow.elasticity(solved).nonuniformity
+    assert f"non-uniformity {u:.1f} %, in the inner spans" in page
+    assert "Push of 100 N" in page
+    assert "linear responses" in told
+    assert workflow.report(solved) == page
+    assert '<section id="elasticity">' not in workflow.report(folder, elasticity=False, progress=refused)
+    with pytest.raises(AssertionError, match="linear responses"):
+        workflow.report(folder, progress=refused)
+
+
+@pytest.mark.parametrize("method", ["force density", "least distance"])
+def test_a_report_says_why_there_is_no_elasticity(method: str) -> None:
+    page = workflow.report(workflow.solve(EXAMPLE, method, rebuild="none"))
+    assert '<section id="elasticity">' not in page
+    assert page.count("Elasticity is left out") == 1
+    assert "has no nodes to start from; direct&#39;s has" in page
+
+
+def test_a_study_that_fails_leaves_the_report(solved: FormResult, monkeypatch: pytest.MonkeyPatch) -> None:
+    def failing(*_: object, **__: object) -> None:
+        raise NotConvergedError("it does not come to rest", "more iterations")
+
+    monkeypatch.setattr(studies, "elasticity", failing)
+    page = workflow.report(solved)
+    assert '<section id="elasticity">' not in page
+    assert "Elasticity is left out: it does not come to rest" in page
+
+
+def test_checks_make_no_study(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(studies, "elasticity", refused)
+    check = {check.name: check for check in workflow.check_result(folder)}["non-uniformity of elasticity"]
+    assert check.verdict == "not judged"
+    assert "catenaria elasticity" in check.why
 
 
 def test_load_cases_beside_the_result_count(folder: Path, solved: FormResult, tmp_path: Path) -> None:
@@ -103,8 +147,9 @@ def test_a_study_of_another_line_is_left_out(folder: Path, studied: ElasticitySt
     other = replace(studied, inputs=studied.inputs | {"gravity": 9.9})
     save_result(other, folder.with_name("line-elasticity"))
     page = workflow.report(folder)
-    assert '<section id="elasticity">' not in page
+    assert '<section id="elasticity">' in page
     assert "line-elasticity is left out" in page
+    assert f"non-uniformity {100.0 * workflow.elasticity(folder).nonuniformity:.1f} %" in page
 
 
 def test_a_damaged_study_is_not_passed_over(folder: Path, studied: ElasticityStudy) -> None:

@@ -39,8 +39,8 @@ def checks(
     """Check a result by rules: gradients, droppers, wave speed, radial pull, lateral position, elasticity.
 
     Every check shows its value, the limit, where it is closest to it, and a verdict: passes, fails, or why it
-    is not judged. Values are read from the result, and from a study that `catenaria elasticity` wrote beside
-    it.
+    is not judged. Values are read from the result, and from studies that `catenaria elasticity` and
+    `catenaria load` wrote beside it; none is made.
 
     Example:
 

@@ -69,7 +69,8 @@ def elasticity(
 
     The folder then holds elasticity.csv (a row for each point), spans.csv (extremes and non-uniformity of
     each span, and the hand formula), comparison.csv (linearised beside nonlinear), elasticity.png, and
-    result.json with result.npz. The first and the last span do not count for the line if there are others.
+    result.json with result.npz. For the line, the first and the last span do not count, nor do spans in which
+    the contact wire is out of use: lifted on its way to an anchor, or without droppers beyond all others.
 
     Exit codes: 0 done, 1 the line does not come to rest, or a limit is not kept (all is written then),
     2 bad input, 130 interrupted.
@@ -173,6 +174,8 @@ def show_study(study: ElasticityStudy, console: Console) -> None:
         f"{study.points.chainage.size} points.",
         soft_wrap=True,
     )
+    if study.in_use:
+        console.print(f"Spans count {study.in_use}.", soft_wrap=True)
     if study.held:
         many = "supports" if len(study.held) > 1 else "support"
         console.print(

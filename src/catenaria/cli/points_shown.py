@@ -8,6 +8,7 @@ from contextlib import contextmanager
 
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+from rich.status import Status
 
 _PLAIN_INTERVAL = 10.0  # seconds of wall time between two lines when there is no terminal
 
@@ -22,6 +23,11 @@ def points_shown(console: Console) -> Generator[Callable[[str, int, int], None],
     with Progress(*columns, console=console, transient=True) as bar:
         task = bar.add_task("Bringing the line to rest", total=None)
         yield lambda part, done, of: bar.update(task, description=part.capitalize(), completed=done, total=of)
+
+
+def elasticity_told(status: Status, doing: str) -> Callable[[str, int, int], None]:
+    """Return what makes a status say how far the elasticity of a report is."""
+    return lambda part, done, of: status.update(f"{doing}: elasticity, {part}, {done} of {of} points")
 
 
 class _Lines:

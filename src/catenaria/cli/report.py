@@ -9,6 +9,7 @@ import typer
 from rich.console import Console
 
 from catenaria.cli.failures import BAD_INPUT, INTERRUPTED, complain, failures_reported
+from catenaria.cli.points_shown import elasticity_told
 from catenaria.cli.speeds import train_speed
 from catenaria.cli.tolerance import beside
 
@@ -34,12 +35,16 @@ def report(
     date: Annotated[
         str, typer.Option(metavar="TEXT", help="Date, as it shall stand in the report.", show_default="none")
     ] = "",
+    no_elasticity: Annotated[
+        bool, typer.Option("--no-elasticity", help="Leave elasticity out, which takes the longest.")
+    ] = False,
 ) -> None:
     """Write a report of a result: one HTML page that opens without a network and prints on A4.
 
-    Sketch, profile with tolerances, plan, dropper schedule, wires, supports, clamps, tensions, audit, checks
-    of standards, input and versions. Studies that `catenaria elasticity` and `catenaria load` wrote beside
-    the result become part of it. Figures say chainage, height and force where one points.
+    Sketch, profile with tolerances, plan, dropper schedule, wires, supports, clamps, tensions, elasticity,
+    audit, checks of standards, input and versions. Studies that `catenaria load`, `rounding` and `tolerance`
+    wrote beside the result become part of it, and so does one that `catenaria elasticity` wrote; without one,
+    elasticity is found under 100 N. Figures say chainage, height and force where one points.
 
     Example:
 
@@ -61,7 +66,14 @@ def report(
             if pdf:
                 browser()
             with console.status("Writing the report") as status:
-                text = workflow.report(result, train_speed("--speed", speed), rules, date)
+                text = workflow.report(
+                    result,
+                    train_speed("--speed", speed),
+                    rules,
+                    date,
+                    elasticity=not no_elasticity,
+                    progress=elasticity_told(status, "Writing the report"),
+                )
                 if pdf:
                     status.update("Printing the report")
                 files = workflow.write_report(text, file, pdf)

@@ -10,6 +10,7 @@ import typer
 from rich.console import Console
 
 from catenaria.cli.failures import BAD_INPUT, INTERRUPTED, NOT_CONVERGED, complain, failures_reported
+from catenaria.cli.points_shown import elasticity_told
 from catenaria.cli.progress import display_on
 from catenaria.cli.summary import show_result
 
@@ -40,7 +41,7 @@ def solve(
     ] = None,
     no_figures: Annotated[bool, typer.Option("--no-figures", help="Write no figures.")] = False,
     report: Annotated[
-        bool, typer.Option("--report", help="Write report.html too; see `catenaria report`.")
+        bool, typer.Option("--report", help="Write report.html too, with elasticity; see `catenaria report`.")
     ] = False,
 ) -> None:
     """Find the form of a line and write it to a folder.
@@ -139,8 +140,10 @@ def _write(
     from catenaria import workflow
 
     try:
-        with console.status("Writing the results"):
-            return workflow.write(result, folder, figures=figures, report=report)
+        doing = "Writing the results"
+        with console.status(doing) as status:
+            tell = elasticity_told(status, doing)
+            return workflow.write(result, folder, figures=figures, report=report, progress=tell)
     except KeyboardInterrupt:
         _end_interrupted(f"while writing. {folder} holds all of the new results or what it held before")
     except OSError as error:

@@ -17,6 +17,8 @@ from catenaria.loading.push_points import PushPoints, Stretch, contact_wires, pu
 from catenaria.loading.read_case import line_state
 from catenaria.loading.reduced import ReducedLine, push
 from catenaria.results.elasticity import Compared, ElasticityStudy, PushedPoint, SpanElasticity, nonuniformity
+from catenaria.results.form import FormResult
+from catenaria.results.running import used_contact_wires
 
 FloatArray = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -188,7 +190,6 @@ def _spans(
     middle = np.array([np.argmin(np.abs(x - span.middle)) for span in whole], dtype=np.int64)
     ends = np.array([(i[0], i[-1]) for i in inside], dtype=np.int64).reshape(-1, 2)
     number = np.array([span.span for span in whole], dtype=np.int64)
-    inner = (number != every[0].span) & (number != every[-1].span)
     return SpanElasticity(
         span=number,
         start=x[ends[:, 0]],
@@ -202,8 +203,21 @@ def _spans(
         at_end=elasticity[ends[:, 1]],
         nonuniformity=nonuniformity(elasticity[high], elasticity[low]),
         tension=_tension(built, whole),
-        inner=inner if inner.any() else np.ones(number.size, dtype=np.bool_),
+        inner=_counted(built.result, every, whole),
     )
+
+
+def _counted(result: FormResult, every: tuple[Stretch, ...], spans: list[Stretch]) -> Mask:
+    """Return which spans count: none at the ends of the line, none in which a contact wire is out of use.
+
+    Each of the two holds only as long as it leaves any span.
+    """
+    inner = np.array([span not in (every[0], every[-1]) for span in spans], dtype=np.bool_)
+    middle = np.array([span.middle for span in spans], dtype=np.float64)
+    counted = np.ones(len(spans), dtype=np.bool_)
+    for kept in (inner, *(wire.between(middle) for wire in used_contact_wires(result))):
+        counted = counted & kept if (counted & kept).any() else counted
+    return counted
 
 
 def _tension(built: BuiltLine, spans: list[Stretch]) -> FloatArray:

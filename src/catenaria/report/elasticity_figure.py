@@ -49,6 +49,7 @@ def _said(study: ElasticityStudy) -> str:
         f"{force}; {way}.\nIn {inner}: {1e3 * study.smallest:.3f} to {1e3 * study.largest:.3f} mm/N, "
         f"non-uniformity {100.0 * study.nonuniformity:.1f} %{limit}. "
         "Dashed verticals: supports, triangles: droppers."
+        + (f"\nSpans count {study.in_use}." if study.in_use else "")
     )
 
 

@@ -57,7 +57,8 @@ class SpanElasticity:
     tension : FloatArray
         Sum of the mean tensions of contact wires and messenger wires [N].
     inner : Mask
-        Whether the span counts for the line: it is not the first or the last one, if there are others.
+        Whether the span counts for the line: it is not the first or the last one, and all contact wires are
+        in use in it, if there are such spans.
     """
 
     span: IntArray
@@ -132,7 +133,7 @@ class ElasticityStudy:
     spans : SpanElasticity
         Spans all of whose points were pushed.
     largest, smallest, nonuniformity : float
-        Of all points in the inner spans, or of all points if there is no whole span [m/N], [m/N], [-].
+        Of all points in the spans that count, or of all points if there is no whole span [m/N], [m/N], [-].
     slack_at_rest : int
         How many droppers are slack without a force.
     held : tuple of str
@@ -165,6 +166,28 @@ class ElasticityStudy:
     supports: FloatArray
     droppers: FloatArray
     inputs: dict[str, Any]
+
+    def __repr__(self) -> str:
+        count = self.points.chainage.size
+        return (
+            f"ElasticityStudy: {self.line or 'a line without name'}, "
+            f"pushed with {self.force:g} N at {count} points; "
+            f"{1e3 * self.smallest:.4g} to {1e3 * self.largest:.4g} mm/N, "
+            f"non-uniformity {100.0 * self.nonuniformity:.3g} %"
+        )
+
+    @property
+    def in_use(self) -> str:
+        """Between which supports spans count, if others than the first and the last one do not."""
+        spans = self.spans
+        middle = 0.5 * (spans.start + spans.end)
+        within = (middle > self.supports[1]) & (middle < self.supports[-2])
+        if not (within & ~spans.inner).any():
+            return ""
+        names: list[str] = [support["name"] for support in self.inputs["supports"]]
+        counted: list[int] = spans.span[spans.inner].tolist()
+        used = f"from {names[counted[0] - 1]} to {names[counted[-1]]}"
+        return f"{used}: in other spans the contact wire has no droppers, or is lifted"
 
     def broken_limits(self) -> tuple[str, ...]:
         """Return what is said of limits that are not kept."""

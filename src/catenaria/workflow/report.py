@@ -1,4 +1,4 @@
-"""From a result to its checks and its report."""
+"""From a result to its checks and its report, with its elasticity."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from pathlib import Path
 from catenaria.report.checks import Check, judge, load_rules
 from catenaria.report.html.page import Contents, page
 from catenaria.results import FormResult, load_result
+from catenaria.workflow.elasticity import ElasticityListener
 from catenaria.workflow.pdf import print_to_pdf
 from catenaria.workflow.studies import Studies, studies_beside
 
@@ -50,6 +51,9 @@ def report(
     speed: float | None = None,
     rules: str | os.PathLike[str] | None = None,
     date: str = "",
+    *,
+    elasticity: bool = True,
+    progress: ElasticityListener | None = None,
 ) -> str:
     """Return the report of a result: one HTML page that needs nothing but itself.
 
@@ -64,6 +68,11 @@ def report(
         File of rules; by default those of catenaria.
     date : str
         As it shall stand in the report; without it there is none, and equal results give equal reports.
+    elasticity : bool
+        Whether elasticity is part of the report: a study beside the folder, or else one with the defaults of
+        `workflow.elasticity`. Results that have none get a note that says why.
+    progress : callable, optional
+        Receives what is done for that study, how many points of it are done, and of how many.
 
     Raises
     ------
@@ -73,6 +82,7 @@ def report(
         If Jinja or Plotly are not installed.
     """
     result, studies = _opened(source)
+    studies = studies.with_elasticity(result, progress) if elasticity else studies.without_elasticity()
     return page(
         Contents(
             result=result,

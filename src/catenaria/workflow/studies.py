@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from catenaria.errors import CatenariaError
 from catenaria.results import FormResult, load_result
 from catenaria.results.case import LoadStudy
 from catenaria.results.elasticity import ElasticityStudy
 from catenaria.results.rounding import RoundingStudy
 from catenaria.results.store import JSON_NAME
 from catenaria.results.tolerance import ToleranceStudy
+from catenaria.workflow.elasticity import ElasticityListener, elasticity
 
 Study = TypeVar("Study", ElasticityStudy, LoadStudy, RoundingStudy, ToleranceStudy)
 FloatArray = NDArray[np.float64]
@@ -33,6 +35,27 @@ class Studies:
     rounding: RoundingStudy | None = None
     tolerances: ToleranceStudy | None = None
     notes: tuple[str, ...] = ()
+
+    def with_elasticity(self, result: FormResult, progress: ElasticityListener | None = None) -> Studies:
+        """Add the elasticity of the result as `elasticity` finds it by default, or a note why there is none.
+
+        Parameters
+        ----------
+        result : FormResult
+            What the studies are of.
+        progress : callable, optional
+            Receives what is done, how many points of it are done, and of how many.
+        """
+        if self.elasticity is not None:
+            return self
+        try:
+            return replace(self, elasticity=elasticity(result, progress=progress))
+        except CatenariaError as error:
+            return replace(self, notes=(*self.notes, f"Elasticity is left out: {error}."))
+
+    def without_elasticity(self) -> Studies:
+        """Leave elasticity out."""
+        return replace(self, elasticity=None)
 
 
 def studies_beside(source: Path, result: FormResult) -> Studies:

@@ -7,13 +7,18 @@ from pathlib import Path
 
 from catenaria.report.tables import write_tables
 from catenaria.results import FormResult, files_of, replace_folder, save_result
+from catenaria.workflow.elasticity import ElasticityListener
 from catenaria.workflow.report import report as page_of
 
 REPORT_NAME = "report.html"
 
 
 def write(
-    result: FormResult, folder: str | os.PathLike[str], figures: bool = True, report: bool = False
+    result: FormResult,
+    folder: str | os.PathLike[str],
+    figures: bool = True,
+    report: bool = False,
+    progress: ElasticityListener | None = None,
 ) -> tuple[Path, ...]:
     """Write a result with its tables and figures into a folder, all of it or nothing.
 
@@ -26,7 +31,9 @@ def write(
     figures : bool
         Whether to draw figures.
     report : bool
-        Whether to write ``report.html`` as well.
+        Whether to write ``report.html`` as well, with the elasticity of the result.
+    progress : callable, optional
+        Receives what is done for that elasticity, how many points of it are done, and of how many.
 
     Returns
     -------
@@ -41,7 +48,7 @@ def write(
     with replace_folder(folder) as new:
         fill(result, new, figures)
         if report:
-            (new / REPORT_NAME).write_text(page_of(result), encoding="utf-8")
+            (new / REPORT_NAME).write_text(page_of(result, progress=progress), encoding="utf-8")
     return files_of(folder)
 
 

@@ -7,9 +7,9 @@ from numpy.typing import NDArray
 
 from catenaria.report.checks.check import Check, Found, first_largest, judged
 from catenaria.report.checks.rules import Rules
-from catenaria.report.checks.running import result_role
 from catenaria.report.names import are_hangers, dropper_place
 from catenaria.results import FormResult
+from catenaria.results.running import result_role
 
 _NONE = "there are no droppers"
 

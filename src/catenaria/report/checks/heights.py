@@ -8,9 +8,9 @@ from numpy.typing import NDArray
 from catenaria.report.checks.check import Check, Found, first_largest, judged
 from catenaria.report.checks.formulas import gradients
 from catenaria.report.checks.rules import Rules
-from catenaria.report.checks.running import Running, contact_wires, running
 from catenaria.report.names import dropper_names, dropper_place
 from catenaria.results import FormResult
+from catenaria.results.running import Running, used_contact_wires
 
 _PER_MILLE = 1e3
 _FINEST = 1e-5  # 0.6 mm on 60 m: finer differences of height cannot be built
@@ -19,7 +19,7 @@ _FINEST = 1e-5  # 0.6 mm on 60 m: finer differences of height cannot be built
 def height_checks(result: FormResult, rules: Rules, speed: float | None) -> list[Check]:
     """Check gradients between supports and between droppers, and heights at droppers."""
     checks: list[Check] = []
-    wires = [running(result, wire) for wire in contact_wires(result)]
+    wires = used_contact_wires(result)
     several = len(wires) > 1
     for wire in wires:
         of = f"{wire.wire}, " if several else ""

@@ -7,9 +7,9 @@ import numpy as np
 from catenaria.line.load_units import Force
 from catenaria.report.checks.check import Check, Found, by_limit, first_largest, judged
 from catenaria.report.checks.rules import Rule, Rules
-from catenaria.report.checks.running import Running, contact_wires, running
 from catenaria.results import FormResult, WireForm
 from catenaria.results.case import LoadStudy
+from catenaria.results.running import Running, contact_wires, running
 from catenaria.units import NonNegativeLength
 
 _AT_SUPPORT = 1.0  # m: arms that swing take the wire along the track

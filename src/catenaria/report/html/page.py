@@ -12,7 +12,6 @@ from catenaria.errors import UnsupportedError
 from catenaria.line import Line
 from catenaria.line.summary import summarise
 from catenaria.report.checks import Check, Rules, judge
-from catenaria.report.checks.elasticity import softness
 from catenaria.report.html import accuracy_tables, figures, study_figures, study_tables, tables
 from catenaria.report.html.clamps import clamp_tables
 from catenaria.report.html.contact_tables import contact_tables
@@ -122,7 +121,6 @@ def _context(contents: Contents, environment: Any) -> dict[str, Any]:
         "stated": [check for check in checks if not check.rule],
         "verdicts": _verdicts(checks),
         "figures": sections,
-        "soft": None if contents.elasticity is None else softness(result, contents.elasticity),
         "tables": tables,
         "contact_tables": contact_tables(result, line),
         "clamp_tables": clamp_tables(result),

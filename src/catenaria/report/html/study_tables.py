@@ -4,9 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-import numpy as np
-from numpy.typing import NDArray
-
 from catenaria.report.case_columns import case_columns
 from catenaria.report.checks import Check
 from catenaria.report.elasticity_tables import HAND_FACTORS
@@ -79,7 +76,7 @@ def audit_table(result: FormResult) -> Table:
     )
 
 
-def elasticity_table(study: ElasticityStudy, counted: NDArray[np.bool_]) -> Table:
+def elasticity_table(study: ElasticityStudy) -> Table:
     """Return elasticities of all whole spans, those that count and the others, beside the hand formula."""
     spans = study.spans
     hand = (column(f"L/({k:g} ΣT)", "mm/N", 1e3 * spans.textbook(k), ".3f") for k in HAND_FACTORS)
@@ -94,7 +91,7 @@ def elasticity_table(study: ElasticityStudy, counted: NDArray[np.bool_]) -> Tabl
             column("mid span", "mm/N", 1e3 * spans.at_middle, ".4f"),
             *hand,
             column("non-uniformity", "%", 100.0 * spans.nonuniformity, ".1f"),
-            column("counts", "", counted),
+            column("counts", "", spans.inner),
         ),
     )
 

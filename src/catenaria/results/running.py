@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from catenaria.results import FormResult, WireForm
+from catenaria.results.form import FormResult, WireForm
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -56,6 +56,11 @@ class Running:
 def contact_wires(result: FormResult) -> list[WireForm]:
     """Return the wires that pantographs touch."""
     return [wire for wire in result.wires if wire.role == "contact wire"]
+
+
+def used_contact_wires(result: FormResult) -> tuple[Running, ...]:
+    """Return where each contact wire is in use."""
+    return tuple(running(result, wire) for wire in contact_wires(result))
 
 
 def running(result: FormResult, wire: WireForm) -> Running:
