@@ -17,8 +17,7 @@ from catenaria.line.source import Mark, Source, format_path
 
 _MOST_VALUES: Final = 1_000_000  # aliases of aliases write billions of values in a few lines
 _PLAIN_TAGS = frozenset(
-    f"tag:yaml.org,2002:{kind}"
-    for kind in ("null", "bool", "int", "float", "str", "timestamp", "seq", "map")
+    f"tag:yaml.org,2002:{kind}" for kind in ("null", "bool", "int", "float", "str", "timestamp", "seq", "map")
 )
 
 

@@ -21,6 +21,7 @@ _FORGOTTEN = 12 * 3600.0  # s after which a page that is loaded again begins ane
 
 # Figures follow the width of the window, as far as they are shown.
 _RESIZED = """<script type="module">
+document.documentElement.lang = "en";
 window.addEventListener("resize", async () => {
   const { Plotly } = await import("nicegui-plotly");
   for (const figure of document.querySelectorAll(".js-plotly-plot")) {
@@ -28,6 +29,17 @@ window.addEventListener("resize", async () => {
   }
 });
 </script>"""
+
+
+# The browser's tab knows that it had a session, also when the studio that had it is gone.
+_REMEMBERED = """
+if (sessionStorage.getItem("catenaria studio")) emitEvent("begun_anew");
+sessionStorage.setItem("catenaria studio", "begun");
+"""
+_ANEW = (
+    "This page begins anew: the studio was started again, or the page was closed for more than 12 hours, "
+    "or it is a copy of another one. What was edited here before is gone."
+)
 
 
 @dataclass(frozen=True)
@@ -117,6 +129,16 @@ def _session_of(tab: str, document: Document) -> Session:
     return session
 
 
+def _say_what_was_lost() -> None:
+    """Tell a page that had a line before why it has another one."""
+    from nicegui import ui
+
+    ui.on(
+        "begun_anew", lambda: ui.notify(_ANEW, type="warning", multi_line=True, timeout=0, close_button=True)
+    )
+    ui.run_javascript(_REMEMBERED)
+
+
 def root_page(document: Document) -> Callable[[], object]:
     """Return what builds a page: each tab of a browser begins with the document and goes on by itself."""
     from nicegui import ui
@@ -130,7 +152,10 @@ def root_page(document: Document) -> Callable[[], object]:
         ui.add_css(style)
         ui.add_body_html(_RESIZED)
         await client.connected()
-        Page(_session_of(client.tab_id or "", document))
+        session = _session_of(client.tab_id or "", document)
+        Page(session)
+        if session.outcome is None:
+            _say_what_was_lost()
 
     return page
 

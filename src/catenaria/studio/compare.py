@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from dataclasses import dataclass
 
 import numpy as np
@@ -19,7 +20,7 @@ class Differences:
     Attributes
     ----------
     dropper : tuple of str
-        Span and number of the droppers that both have.
+        Span and number of the droppers that both have, in spans with as many of them in both.
     x : FloatArray
         Their chainages [m].
     cut_length, dropper_height : FloatArray
@@ -37,7 +38,7 @@ class Differences:
 
 
 def differences(result: FormResult, variant: FormResult) -> Differences:
-    """Compare two forms; droppers are the same if wires, span and number are.
+    """Compare two forms; droppers are the same if wires, span, number and how many the span has are.
 
     Examples
     --------
@@ -63,9 +64,11 @@ def differences(result: FormResult, variant: FormResult) -> Differences:
     )
 
 
-def _keys(droppers: Droppers) -> list[tuple[str, str, int, int]]:
+def _keys(droppers: Droppers) -> list[tuple[str, str, int, int, int]]:
     spans, numbers = droppers.span.tolist(), droppers.number.tolist()
-    return list(zip(droppers.lower_wire, droppers.upper_wire, spans, numbers, strict=True))
+    sets = list(zip(droppers.lower_wire, droppers.upper_wire, spans, strict=True))
+    many = Counter(sets)
+    return [(*of, number, many[of]) for of, number in zip(sets, numbers, strict=True)]
 
 
 def _heights(result: FormResult, variant: FormResult) -> tuple[FloatArray, FloatArray]:

@@ -11,7 +11,7 @@ from catenaria.errors import Fault, InconsistentInputError
 from catenaria.studio.documents import Tree
 from catenaria.studio.fields import Field, entered, message, shown, unplaced
 from catenaria.studio.forms import all_fields, line_fields, span_fields, support_fields, wire_fields
-from catenaria.studio.spans import with_span_after, without_span
+from catenaria.studio.spans import span_count, with_span_after, without_span
 from catenaria.studio.state import Session
 
 _MOST_TOLD: Final = 12  # faults in words above the forms
@@ -32,17 +32,18 @@ class Editor:
         self._session = session
         self._changed = changed
         self._inputs: list[tuple[Field, Any]] = []
-        self._told = ui.column().classes("faults")
+        self._told = ui.column().classes("faults").props('role="alert"')
         self._place = ui.column().classes("editor")
         self.rebuild()
 
-    def rebuild(self) -> None:
-        """Build all forms anew, for a line of another make."""
+    def rebuild(self, focus: str = "") -> None:
+        """Build all forms anew, for a line of another make; the field of a name gets the cursor."""
         tree = self._session.document.tree
         self._inputs = []
         self._place.clear()
         with self._place:
-            self._form(line_fields(tree))
+            for row in line_fields(tree):
+                self._form(row)
             _heading("Wires")
             for row in wire_fields(tree):
                 self._form(row)
@@ -50,6 +51,9 @@ class Editor:
             self._rows(span_fields(tree), self._span_buttons)
             _heading("Supports")
             self._rows(support_fields(tree), None)
+        for field, element in self._inputs:
+            if field.name == focus:
+                element.props("autofocus")
 
     def refresh(self) -> None:
         """Show the values of the document, as after an undo."""
@@ -84,8 +88,7 @@ class Editor:
     def _form(self, fields: list[Field]) -> None:
         with ui.row().classes("form"):
             for field in fields:
-                unit = f" [{field.unit}]" if field.unit else ""
-                self._input(field, f"{field.label}{unit}").classes("field")
+                self._input(field, _named(field)).classes("field")
 
     def _rows(self, rows: list[list[Field]], buttons: Callable[[int], None] | None) -> None:
         """Show a table: headings, then a numbered row for each list of fields."""
@@ -97,8 +100,7 @@ class Editor:
         with ui.element("div").classes("grid").style(f"grid-template-columns: 1.6rem {widths}{extra}"):
             ui.label("")
             for field in rows[0]:
-                unit = f" [{field.unit}]" if field.unit else ""
-                ui.label(field.label.split(", ")[0] + unit).classes("head")
+                ui.label(_named(field).split(", ")[0]).classes("head")
             if buttons:
                 ui.label("")
             for number, row in enumerate(rows):
@@ -111,7 +113,7 @@ class Editor:
     def _input(self, field: Field, label: str) -> Any:
         choices = list(field.choices) if field.choices else None
         element = ui.input(label, value=shown(field, self._session.document.tree), autocomplete=choices)
-        element.props(f'dense hide-bottom-space data-field="{field.name}" aria-label="{field.label}"')
+        element.props(f'dense hide-bottom-space data-field="{field.name}" aria-label="{_named(field)}"')
         if field.hint:
             element.props(f'placeholder="{field.hint}"')
         element.mark(field.name)
@@ -141,8 +143,16 @@ class Editor:
             ui.notify(str(error), type="warning")
             return
         self._session.edit(tree)
-        self.rebuild()
+        behind = index + 1 if change is with_span_after else index
+        self.rebuild(f"spans[{min(behind, span_count(tree) - 1)}].length")
         self._changed()
+
+
+def _named(field: Field) -> str:
+    """Return the label with the unit, which tells the two fields of a pre-sag apart."""
+    what, comma, where = field.label.partition(", ")
+    unit = f" [{field.unit}]" if field.unit else ""
+    return f"{what}{unit}{comma}{where}"
 
 
 def _heading(text: str) -> None:
@@ -151,5 +161,5 @@ def _heading(text: str) -> None:
 
 def _width(field: Field) -> str:
     if field.kind == "positions":
-        return "minmax(9rem, 3fr)"
+        return "minmax(6rem, 3fr)"
     return "minmax(3.4rem, 1fr)"

@@ -16,15 +16,15 @@ _LONG_WIRES: Final = ("contact_wire", "auxiliary_messenger", "messenger_wire")
 _TIED_WIRES: Final = ("stitch_wire", "mid_point")
 
 
-def line_fields(tree: Tree) -> list[Field]:
-    """Return the fields of the line as a whole."""
+def line_fields(tree: Tree) -> list[list[Field]]:
+    """Return the fields of the line as a whole, in rows."""
     fields = [
         Field(("name",), "name", kind="text"),
         Field(("speed",), "speed", "km/h"),
     ]
     if "second_contact_wire" in tree:
         fields.append(Field(("second_contact_wire", "spacing"), "spacing of contact wires", "mm"))
-    return fields
+    return [fields, [Field(("description",), "description", kind="text")]]
 
 
 def wire_fields(tree: Tree) -> list[list[Field]]:
@@ -72,8 +72,8 @@ def support_fields(tree: Tree) -> list[list[Field]]:
 
 def all_fields(tree: Tree) -> list[Field]:
     """Return the fields of all forms and tables."""
-    rows = [*wire_fields(tree), *span_fields(tree), *support_fields(tree)]
-    return line_fields(tree) + [field for row in rows for field in row]
+    rows = [*line_fields(tree), *wire_fields(tree), *span_fields(tree), *support_fields(tree)]
+    return [field for row in rows for field in row]
 
 
 def conductor_names(tree: Tree) -> tuple[str, ...]:

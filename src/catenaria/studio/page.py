@@ -25,6 +25,8 @@ from catenaria.studio.state import Session
 _AHEAD: Final = 0.03  # s between figures and what is said of them
 _DRAWN: Final = 1.0  # s, after which the audit no longer waits for the figures
 
+_REFUSED: Final = f"Refused: a line file is YAML or JSON, {MOST_BYTES / 1e6:g} MB at most"
+
 _FILES: Final = (
     ("save-droppers", "Droppers, CSV", downloads.droppers_csv),
     ("save-report", "Report, HTML", downloads.report_page),
@@ -60,9 +62,8 @@ class Page:
 
     def _header(self) -> None:
         ui.label("catenaria studio").classes("title")
-        ui.select(dict(EXAMPLES), label="example", on_change=self._choose).props(
-            "dense options-dense"
-        ).classes("chooser").mark("example")
+        self._chooser = ui.select(dict(EXAMPLES), label="example", on_change=self._choose)
+        self._chooser.props("dense options-dense").classes("chooser").mark("example")
         self._opener()
         self._undo = _button("undo", "undo", lambda: self._back(self._session.undo))
         self._redo = _button("redo", "redo", lambda: self._back(self._session.redo))
@@ -70,7 +71,7 @@ class Page:
         with ui.button("Download", icon="download").props("flat dense no-caps").mark("download"), ui.menu():
             self._items()
         _button("dark_mode", "light or dark", self._toggle_dark)
-        self._status = ui.label("").classes("status").mark("status")
+        self._status = ui.label("").classes("status").props('role="status"').mark("status")
 
     def _opener(self) -> None:
         """A button in the place of the large element that takes files."""
@@ -78,7 +79,7 @@ class Page:
             auto_upload=True,
             max_file_size=MOST_BYTES,
             on_upload=self._take,
-            on_rejected=lambda: ui.notify(f"Refused: {MOST_BYTES / 1e6:g} MB at most", type="negative"),
+            on_rejected=lambda: ui.notify(_REFUSED, type="negative"),
         )
         taker.props('accept=".yaml,.yml,.json"').classes("taker").mark("upload")
         button = ui.button("Open", icon="folder_open").props("flat dense no-caps").mark("open")
@@ -95,6 +96,7 @@ class Page:
     def _choose(self, event: events.ValueChangeEventArguments[Any]) -> None:
         if event.value:
             self._open(example(event.value))
+            self._chooser.value = None  # an example is a beginning: it can be chosen again to begin anew
 
     async def _take(self, event: events.UploadEventArguments) -> None:
         try:
@@ -118,6 +120,8 @@ class Page:
 
     def _back(self, step: Callable[[], None]) -> None:
         step()
+        if self._session.form is None:  # another line
+            self._panels.clear()
         self._editor.refresh()
         self._solve()
 

@@ -133,8 +133,9 @@ class Panels:
         most = max((abs(value) for value in found.cut_length.tolist()), default=0.0)
         self._figures("compare", [*difference_plots(form, variant, self.dark)])
         against = "the pinned variant" if self._session.pinned is not None else "the form before"
+        by = f"droppers differ by up to {most:.2f} mm" if found.dropper else "no span has as many droppers"
         with place:
-            said = ui.label(f"Against {against}: droppers differ by up to {most:.2f} mm.")
+            said = ui.label(f"Against {against}: {by}.")
         said.classes("quiet").mark("compared")
         return False
 

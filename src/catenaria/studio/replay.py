@@ -100,7 +100,7 @@ class Replay:
             self._play = ui.button(icon="play_arrow", on_click=self._toggle)
             self._play.props('flat dense aria-label="play"').mark("play")
             self._slider = ui.slider(min=0, max=1, value=0, on_change=self.redraw).classes("slider")
-            self._slider.mark("frame")
+            self._slider.props('aria-label="state of the motion"').mark("frame")
         self._said = ui.label(_READY).classes("quiet").mark("replayed")
         self._place = ui.column().classes("panel")
         self._player = ui.timer(_TICK, self._next, active=False)
@@ -113,12 +113,13 @@ class Replay:
         filmed = self._filmed if self._work is None else self._work.document
         if filmed is self._session.document:
             return
+        over = "" if filmed is None else "The line is another one: its motion is not computed yet. "
         self._leave()
         self._films, self._filmed = (), None
         self._player.deactivate()
         self._place.clear()
         self._live = []
-        self._said.text = _READY
+        self._said.text = over + _READY
         self._enable()
 
     def refresh(self) -> None:

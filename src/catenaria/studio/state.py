@@ -64,11 +64,9 @@ class Session:
     _undone: list[Document] = field(default_factory=list[Document])
 
     def open(self, document: Document) -> None:
-        """Begin with another line; what was found for the one before is forgotten."""
-        self.document = document
-        self.outcome = self.form = self.before = self.pinned = None
-        self.checks, self.audited = (), False
-        self._done, self._undone = [], []
+        """Go on with another line; undo leads back to the one before, what was found for it is forgotten."""
+        self._change(document)
+        self._forget()
 
     def edit(self, tree: Tree) -> bool:
         """Replace the contents of the document; return whether that changes anything."""
@@ -83,6 +81,15 @@ class Session:
             return False
         self._change(document)
         return True
+
+    def _forget(self) -> None:
+        self.outcome = self.form = self.before = self.pinned = None
+        self.checks, self.audited = (), False
+
+    def _return(self, document: Document) -> None:
+        if document.name != self.document.name:  # another line was opened between the two
+            self._forget()
+        self.document = document
 
     def _change(self, document: Document) -> None:
         self._done = [*self._done, self.document][-_MOST_UNDONE:]
@@ -103,13 +110,13 @@ class Session:
         """Take the latest edit back, if there is one."""
         if self._done:
             self._undone.append(self.document)
-            self.document = self._done.pop()
+            self._return(self._done.pop())
 
     def redo(self) -> None:
         """Repeat the edit that was taken back last, if there is one."""
         if self._undone:
             self._done.append(self.document)
-            self.document = self._undone.pop()
+            self._return(self._undone.pop())
 
     def take(self, outcome: Outcome) -> None:
         """Note what became of the document."""

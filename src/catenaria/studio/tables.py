@@ -41,7 +41,7 @@ def schedule(result: FormResult, variant: FormResult | None) -> Shown:
         for row in rows:
             by = longer.get(f"{row['span']}.{row['dropper']}")
             row["longer"] = "new" if by is None else f"{by:+.2f}"
-        columns.append(_column("longer", "longer than before [mm]", True))
+        columns.append(_column("longer", "longer than pinned [mm]", True))
     return Shown(columns, _keyed(rows))
 
 
