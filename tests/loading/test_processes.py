@@ -14,11 +14,13 @@ import pytest
 
 pytestmark = pytest.mark.slow
 
+# A shell that begins the tests in its background lets them ignore the signal of Ctrl-C.
 SCRIPT = """
-import sys
-from catenaria.loading.processes import deaf_start, process_pool
+import signal
 import time
+from catenaria.loading.processes import deaf_start, process_pool
 if __name__ == "__main__":
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     pool = process_pool(2)
     try:
         with deaf_start():
