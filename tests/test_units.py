@@ -256,3 +256,9 @@ def test_pint_is_imported_only_for_a_unit() -> None:
     assert not _imports_pint("15e3")
     assert not _imports_pint("'15000'")
     assert _imports_pint("'15 kN'")
+
+
+def test_a_unit_of_very_many_factors_is_refused_like_any_other_wrong_one() -> None:
+    assert to_si("3 kg*m/s^2", FORCE) == 3.0
+    with pytest.raises(ValueError, match="a length"):
+        to_si("1 " + "m " * 400, LENGTH)

@@ -50,7 +50,7 @@ degree = [angle] = deg
 _TERM: Final = r"[A-Za-zµμ_]+(?:(?:\^|\*\*)-?[1-9]|[²³⁴2-4])?"
 _QUANTITY: Final = re.compile(
     r"(?P<number>[-+]?(?:\d{1,40}\.?\d{0,40}|\.\d{1,40})(?:[eE][-+]?\d{1,3})?)"
-    rf"\s*(?P<unit>(?:1\s*/\s*)?{_TERM}(?:(?:\s*[*·/]\s*|\s+){_TERM})*)?",
+    rf"\s*(?P<unit>(?:1\s*/\s*)?{_TERM}(?:(?:\s*[*·/]\s*|\s+){_TERM}){{0,9}})?",
     re.ASCII,
 )
 _DECIMAL_COMMA: Final = re.compile(r"[-+]?\d*,\d.*", re.ASCII)

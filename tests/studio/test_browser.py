@@ -23,6 +23,12 @@ CHROMIUM = shutil.which("chromium") or shutil.which("google-chrome") or ""
 START = "from catenaria.cli.main import main; main()"
 SOLVED = "audit passed"
 PATIENCE = 30_000  # ms
+CONDUCTOR = {
+    "youngs_modulus": "120 GPa",
+    "area": "120 mm^2",
+    "mass_per_length": "1.08 kg/m",
+    "bending_stiffness": "131.7 N*m^2",
+}
 
 
 @pytest.fixture(scope="module")
@@ -162,6 +168,8 @@ def test_the_replay_reaches_the_form(visit: Visit) -> None:
     expect(page.get_by_text(re.compile(r"contact wire, [\d.]+ s ·"))).to_be_visible()  # it plays by itself
     expect(page.get_by_text("messenger wire, ")).to_be_visible(timeout=120_000)
     expect(page.get_by_text("dropper force error 0.0")).to_be_visible(timeout=120_000)
+    visit.enter("speed", "200")
+    expect(page.get_by_text("The line is another one: its motion is not computed yet.")).to_be_visible()
 
 
 @pytest.mark.slow
@@ -194,7 +202,7 @@ def test_an_uploaded_line_is_solved_and_a_large_file_is_not(visit: Visit, tmp_pa
     large = tmp_path / "large.yaml"
     large.write_bytes(b"#" * (MOST_BYTES + 1))
     upload.set_input_files(large)
-    expect(visit.page.get_by_text("1 MB at most")).to_be_visible()
+    expect(visit.page.get_by_text("YAML or JSON, 1 MB at most")).to_be_visible()
 
 
 def test_a_file_is_edited_as_text_and_keeps_what_was_written(visit: Visit, tmp_path: Path) -> None:
@@ -251,9 +259,105 @@ def test_two_people_do_not_see_each_other(visit: Visit, browser: Browser, url: s
     visit.solved()
 
 
+def test_another_example_can_be_taken_back(visit: Visit) -> None:
+    length = visit.page.locator('[data-field="spans[0].length"]')
+    visit.enter("spans[0].length", "64.5")
+    visit.choose("low bridge on a gradient")
+    expect(visit.page.locator('[data-field="spans[9].length"]')).to_be_visible()
+    visit.solved()
+    first = length.input_value()
+    visit.enter("spans[0].length", "44")
+    visit.choose("low bridge on a gradient")  # once more: from its beginning
+    expect(length).to_have_value(first)
+    for value in ("44", first, "64.5"):
+        visit.page.get_by_label("undo", exact=True).click()
+        expect(length).to_have_value(value)
+    visit.solved()
+
+
+def test_the_keyboard_stays_where_a_span_was_added_or_taken_away(visit: Visit) -> None:
+    page = visit.page
+    page.get_by_label("add a span after 2").press("Enter")
+    expect(page.get_by_label("length [m], span 3", exact=True)).to_be_focused()
+    expect(page.get_by_label("length [m], span 4", exact=True)).to_be_visible()
+    page.get_by_label("take away span 4").press("Enter")
+    expect(page.get_by_label("length [m], span 4", exact=True)).to_have_count(0)
+    expect(page.get_by_label("length [m], span 3", exact=True)).to_be_focused()
+
+
+def test_what_is_wrong_stays_in_sight(visit: Visit) -> None:
+    visit.choose("AC line, 60 m spans, cantilevers")
+    visit.enter("supports[11].stagger", "9000")
+    told = visit.page.get_by_text("1 field is wrong")
+    expect(told).to_be_visible()
+    place = visit.page.locator('[data-field="supports[12].stagger"]')
+    place.scroll_into_view_if_needed()
+    assert visit.page.locator(".half").first.evaluate("half => half.scrollTop") > 100
+    expect(told).to_be_in_viewport()
+
+
+def test_faults_in_the_dark_and_buttons_in_a_narrow_window(visit: Visit) -> None:
+    page = visit.page
+    page.set_viewport_size({"width": 1000, "height": 900})
+    button = page.get_by_label("take away span 1").bounding_box()
+    half = page.locator(".half").first.bounding_box()
+    assert button is not None
+    assert half is not None
+    assert button["x"] + button["width"] < half["x"] + half["width"]
+    page.get_by_label("light or dark").click()
+    visit.enter("spans[0].length", "long")
+    wrong = page.locator(".q-field__messages").filter(has_text='found "long"')
+    expect(wrong).to_have_css("color", "rgb(255, 143, 134)")  # 8 to 1 on the background
+
+
+def test_names_of_fields_differ(visit: Visit) -> None:
+    names = visit.page.locator("[data-field]").evaluate_all("all => all.map(e => e.ariaLabel)")
+    assert len(names) == len(set(names)) > 30
+    assert {"pre-sag [mm], span 1", "pre-sag [‰], span 1"} <= set(names)
+    visit.tab("Replay")
+    expect(visit.page.get_by_role("slider", name="state of the motion")).to_be_visible()
+    assert visit.page.evaluate("document.documentElement.lang") == "en"
+
+
+@pytest.mark.parametrize("lost", [True, False])
+def test_a_page_whose_session_is_gone_says_so(browser: Browser, url: str, lost: bool) -> None:
+    context = browser.new_context()
+    if lost:  # as it is in the browser's tab when the studio was started again meanwhile
+        context.add_init_script("sessionStorage.setItem('catenaria studio', 'begun')")
+    page = context.new_page()
+    page.goto(url)
+    expect(page.locator(".status")).to_contain_text(SOLVED, timeout=PATIENCE)
+    expect(page.get_by_text("This page begins anew")).to_have_count(int(lost))
+    page.reload()
+    expect(page.locator(".status")).to_contain_text(SOLVED, timeout=PATIENCE)
+    expect(page.get_by_text("This page begins anew")).to_have_count(0)
+    context.close()
+
+
 def test_an_error_would_be_noticed(browser: Browser, url: str) -> None:
     visit = Visit(browser, url)
     visit.page.evaluate("setTimeout(() => nowhere(), 0)")
     visit.page.wait_for_timeout(300)
     assert any("nowhere" in text for text in visit.said)
     visit.close()
+
+
+@pytest.mark.slow
+def test_names_are_no_markup_anywhere(visit: Visit, tmp_path: Path) -> None:
+    attack = "<img src=data:, onerror='window.attacked=1'><script>window.attacked=1</script>"
+    tree = example("simple_60m").tree
+    tree = replaced(tree, ("name",), attack) | {"conductors": {attack: CONDUCTOR}}
+    tree = replaced(tree, ("supports", 1, "name"), attack)
+    tree = replaced(tree, ("contact_wire", "conductor"), attack)
+    file = tmp_path / "attack.yaml"
+    file.write_text(as_yaml(Document("attack", tree)), encoding="utf-8")
+    visit.page.locator("input[type=file]").set_input_files(file)
+    expect(visit.page.locator('[data-field="name"]')).to_have_value(attack)
+    visit.solved()
+    for tab in ("Tension", "Droppers", "Supports", "Checks", "File", "Form"):
+        visit.tab(tab)
+    visit.enter("speed", attack)  # it is told beside the field then
+    expect(visit.page.get_by_text("window.attacked=1").first).to_be_visible()
+    assert visit.page.evaluate("window.attacked") is None
+    visit.page.evaluate("text => document.body.insertAdjacentHTML('beforeend', text)", attack)
+    visit.page.wait_for_function("window.attacked === 1")  # as markup it does act

@@ -22,7 +22,7 @@ from catenaria.validation import example_file
 def test_droppers_are_those_of_the_command(form: FormResult, tmp_path: Path) -> None:
     write_tables(form, tmp_path)
     file = downloads.droppers_csv(form)
-    assert file.name == "droppers.csv"
+    assert file.name == "Yang_et_al_2017_three_spans-droppers.csv"
     assert file.content == (tmp_path / "droppers.csv").read_bytes()
 
 
@@ -67,7 +67,7 @@ def test_a_form_that_is_not_confirmed_has_no_folder(
 
 def test_every_export_is_offered(form: FormResult) -> None:
     assert tuple(downloads.EXPORTS) == workflow.FORMATS
-    assert downloads.exported("csv", form).name == "schedule.csv"
+    assert downloads.exported("csv", form).name.endswith("-schedule.csv")
     assert zipfile.is_zipfile(io.BytesIO(downloads.exported("dxf", form).content))
 
 

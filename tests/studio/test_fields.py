@@ -132,3 +132,11 @@ def test_neighbours_with_longer_names_do_not_share_faults() -> None:
 def test_conductors_of_the_line_come_first(paper: Document) -> None:
     assert conductor_names(paper.tree)[:3] == ("contact", "messenger", "dropper")
     assert "BzII 70" in conductor_names({"conductors": "nonsense"})
+
+
+def test_units_of_hundreds_of_factors_are_shown_as_they_stand() -> None:
+    unit = "1" + " m" * 2000
+    speed, droppers = Field(("speed",), "speed", "km/h"), Field(("d",), "d", "m", kind="positions")
+    assert shown(speed, {"speed": unit}) == unit
+    assert shown(droppers, {"d": {"positions": [unit]}}) == unit
+    assert shown(speed, {"speed": "36" + "0" * 3 + " m/h"}) == "36"

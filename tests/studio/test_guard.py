@@ -100,3 +100,29 @@ def test_an_exposed_server_has_any_name() -> None:
     scope: Scope = {"type": "http", "headers": [(b"host", b"studio.example")]}
     asyncio.run(Guard(inside, frozenset(), MOST)(scope, receive, send))
     assert said[0]["status"] == 200
+
+
+def answered(guarded: bool, headers: dict[str, str]) -> dict[bytes, bytes]:
+    """Return the headers of an answer of the application with its guard or without."""
+    said = list[Message]()
+
+    async def receive() -> Message:
+        return {"type": "http.request", "body": b""}
+
+    async def send(message: Message) -> None:
+        said.append(message)
+
+    scope: Scope = {"type": "http", "headers": [(k.encode(), v.encode()) for k, v in headers.items()]}
+    application = Guard(Inside(), OWN, MOST) if guarded else Inside()
+    asyncio.run(application(scope, receive, send))
+    return dict(said[0]["headers"])
+
+
+@pytest.mark.parametrize("host", ["localhost", "evil.example"])
+def test_no_other_site_frames_a_page_or_guesses_its_type(host: str) -> None:
+    headers = answered(True, {"host": host})
+    assert b"frame-ancestors 'none'" in headers[b"content-security-policy"]
+    assert headers[b"x-frame-options"] == b"DENY"
+    assert headers[b"x-content-type-options"] == b"nosniff"
+    assert headers[b"referrer-policy"] == b"no-referrer"
+    assert answered(False, {"host": host}) == {}

@@ -67,6 +67,19 @@ def test_droppers_that_only_one_has_are_left_out(paper: Document, form: FormResu
     assert rows[0]["longer"] != "new"
 
 
+def test_droppers_of_spans_with_fewer_have_no_counterpart(paper: Document, form: FormResult) -> None:
+    fewer = {"positions": [5, 16, 27, 38, 49, 60]}
+    other = solved(Document("fewer", replaced(paper.tree, ("spans", 1, "droppers"), fewer))).result
+    assert other is not None
+    found = differences(other, form)
+    assert [name[0] for name in found.dropper] == ["1"] * 7 + ["3"] * 7
+    assert np.abs(found.cut_length).max() < 10.0  # mm; number by number, those of span 2 differ by more
+    assert np.abs(other.droppers.cut_length[7:13] - form.droppers.cut_length[7:13]).max() > 0.05
+    table = tables.schedule(other, form)
+    assert [row["longer"] for row in table.rows[7:13]] == ["new"] * 6
+    assert table.columns[-1]["label"] == "longer than pinned [mm]"
+
+
 def test_a_pinned_variant_is_drawn_behind(form: FormResult, higher: FormResult) -> None:
     names = [trace["name"] for trace in profile_plot(higher, form, False)["data"]]
     assert names[:2] == ["pinned variant"] * 2

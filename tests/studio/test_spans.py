@@ -5,7 +5,8 @@ from __future__ import annotations
 import pytest
 
 from catenaria.errors import InconsistentInputError
-from catenaria.studio.documents import EXAMPLES, Document, example
+from catenaria.studio.documents import EXAMPLES, Document, Tree, example
+from catenaria.studio.limits import MOST_ROWS
 from catenaria.studio.solve import solved
 from catenaria.studio.spans import span_count, with_span_after, without_span
 
@@ -48,3 +49,12 @@ def test_spans_need_supports(tree: dict[str, object]) -> None:
 def test_a_line_with_too_few_supports_can_still_be_repaired() -> None:
     tree = {"spans": [{}, {}, {}], "supports": [{"name": "A"}, {"name": "B"}]}
     assert without_span(tree, 2)["supports"] == [{"name": "B"}]
+
+
+def test_a_table_does_not_grow_without_end() -> None:
+    def line(supports: int) -> Tree:
+        return {"spans": [{}] * (supports - 1), "supports": [{}] * supports}
+
+    assert span_count(with_span_after(line(MOST_ROWS - 1), 0)) == MOST_ROWS - 1
+    with pytest.raises(InconsistentInputError, match=str(MOST_ROWS)):
+        with_span_after(line(MOST_ROWS), 0)

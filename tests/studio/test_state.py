@@ -76,4 +76,21 @@ def test_another_line_has_nothing_of_the_one_before(outcome: Outcome) -> None:
     assert session.pinned is outcome.result
     session.open(OTHER)
     assert (session.form, session.pinned, session.before, session.outcome) == (None, None, None, None)
-    assert not session.can_undo
+
+
+def test_undo_leads_back_from_a_line_that_was_opened(outcome: Outcome) -> None:
+    session = Session(outcome.document)
+    session.edit({"name": "work of a day"})
+    session.open(OTHER)
+    session.take(outcome)
+    session.undo()
+    assert session.document.tree == {"name": "work of a day"}
+    assert session.form is None  # the other line's form is no form of this one
+    session.take(outcome)
+    session.undo()
+    assert session.document is outcome.document
+    assert session.form is outcome.result
+    session.redo()
+    session.redo()
+    assert session.document is OTHER
+    assert session.form is None

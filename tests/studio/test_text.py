@@ -5,6 +5,7 @@ from __future__ import annotations
 import copy
 import json
 import re
+import time
 from pathlib import Path
 from typing import Any
 
@@ -275,6 +276,16 @@ def test_json_stays_json() -> None:
     edited = document.edited(replaced(document.tree, ("a",), 60.0))
     assert json.loads(edited.text) == {"a": 60.0, "b": ["é"]}
     assert "é" in edited.text
+
+
+def test_long_lists_are_paired_in_their_order_at_once() -> None:
+    began = time.perf_counter()
+    pairs = aligned(range(30_000), range(-20_000, 0))
+    assert time.perf_counter() - began < 2.0
+    assert pairs[:2] == [(0, 0), (1, 1)]
+    assert pairs[-1] == (29_999, None)
+    assert [j for _, j in pairs if j is not None] == [*range(20_000)]
+    assert aligned(range(30_000), [*range(20_000), *range(20_001, 30_000)])[20_000] == (20_000, None)
 
 
 def test_few_items_change_when_lists_are_paired() -> None:

@@ -12,6 +12,7 @@ from nicegui.testing.user_simulation import user_simulation
 
 from catenaria.studio.app import root_page
 from catenaria.studio.documents import Document, example
+from catenaria.studio.limits import AT_ONCE, MOST_TYPED, MOVING
 
 Story = Callable[[User], Awaitable[None]]
 TICKS = 300  # of 0.1 s
@@ -73,6 +74,29 @@ def test_bad_input_is_marked_and_can_be_taken_back(paper: Document) -> None:
         assert "audit passed" in status(user)
         assert one(user, "spans[1].length").value == "65"
         assert element.error is None
+
+    play(paper, story)
+
+
+def test_droppers_without_counterpart_are_not_compared(paper: Document) -> None:
+    async def story(user: User) -> None:
+        one(user, "tabs").value = "compare"
+        user.find(marker="pin this variant").click()
+        for span in range(3):
+            await enter(user, f"spans[{span}].droppers", "5, 16, 27, 38, 49, 60")
+            said = "no span has as many droppers" if span == 2 else "droppers differ by up to"
+            await until(lambda said=said: said in str(one(user, "compared").text))
+
+    play(paper, story)
+
+
+def test_the_description_is_edited_beside_the_name(paper: Document) -> None:
+    async def story(user: User) -> None:
+        await enter(user, "description", "with <b>other</b> droppers")
+        assert "audit passed" in status(user)
+        user.find(marker="undo").click()
+        await solved(user)
+        assert one(user, "description").value == paper.tree["description"]
 
     play(paper, story)
 
@@ -226,5 +250,64 @@ def test_a_replay_plays_to_its_end(paper: Document) -> None:
         await until(lambda: one(user, "replayed").text.endswith("at rest"))
         assert slider.value == 199
         assert one(user, "replayed").text.startswith("2 of 2: messenger wire, ")
+
+    play(paper, story)
+
+
+def test_a_field_takes_no_books(paper: Document) -> None:
+    async def story(user: User) -> None:
+        element = one(user, "description")
+        before = element.value
+        element.value = "x" * (MOST_TYPED + 1)
+        user.find(marker="description").trigger("change")
+        await user.should_see("characters at most")
+        assert element.value == before
+        element = await enter(user, "description", "x" * MOST_TYPED)
+        assert element.value == "x" * MOST_TYPED
+
+    play(paper, story)
+
+
+def test_a_motion_waits_for_nobody_and_is_refused_while_others_are_computed(paper: Document) -> None:
+    async def story(user: User) -> None:
+        user.find("Replay").click()
+        for _ in range(AT_ONCE):
+            assert MOVING.acquire(blocking=False)
+        try:
+            user.find(marker="move").click()
+            await until(lambda: "Other tabs" in one(user, "replayed").text)
+        finally:
+            MOVING.release(AT_ONCE)
+        user.find(marker="move").click()
+        await until(lambda: "simulated time" in one(user, "replayed").text)
+        await until(lambda: one(user, "play").enabled)
+        assert MOVING.acquire(blocking=False)  # it was given back
+        MOVING.release()
+
+    play(paper, story)
+
+
+def test_a_row_becomes_all_rows(paper: Document) -> None:
+    async def story(user: User) -> None:
+        await enter(user, "spans[0].pre_sag_per_mille", "0.5")
+        await enter(user, "spans[2].pre_sag", "20")
+        user.find(marker="all-spans[0].pre_sag_per_mille").click()
+        await solved(user)
+        assert [one(user, f"spans[{i}].pre_sag_per_mille").value for i in range(3)] == ["0.5"] * 3
+        assert one(user, "spans[2].pre_sag").value == ""
+        assert "audit passed" in status(user)
+        user.find(marker="undo").click()
+        await solved(user)
+        assert one(user, "spans[2].pre_sag").value == "20"
+        assert one(user, "spans[1].pre_sag_per_mille").value == ""
+
+    play(paper, story)
+
+
+def test_staggers_and_names_have_no_button_for_all(paper: Document) -> None:
+    async def story(user: User) -> None:
+        await user.should_see(marker="all-supports[0].contact_wire.height")
+        for name in ("stagger", "name"):
+            await user.should_not_see(marker=f"all-supports[0].{name}")
 
     play(paper, story)

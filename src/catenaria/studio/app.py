@@ -152,9 +152,12 @@ def root_page(document: Document) -> Callable[[], object]:
         ui.add_css(style)
         ui.add_body_html(_RESIZED)
         await client.connected()
+        if not client.has_socket_connection:  # whoever asked for the page did not stay
+            return
         session = _session_of(client.tab_id or "", document)
+        begins = session.outcome is None and not session.can_undo
         Page(session)
-        if session.outcome is None:
+        if begins:
             _say_what_was_lost()
 
     return page

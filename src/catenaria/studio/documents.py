@@ -18,6 +18,7 @@ from catenaria.errors import Fault, InconsistentInputError, LineFileError
 from catenaria.line.base import Path
 from catenaria.line.reading import read_tree
 from catenaria.line.source import Source, format_path
+from catenaria.studio.limits import refuse_long_tables, refuse_slow_text
 from catenaria.studio.text import merged
 from catenaria.studio.tree_diff import same
 from catenaria.validation import example_file
@@ -96,9 +97,11 @@ class Document:
         Raises
         ------
         LineFileError
-            If that is no mapping in YAML, or JSON.
+            If that is no mapping in YAML, or JSON, or takes long to read or to show.
         """
+        refuse_slow_text(text, self.file)
         tree, _ = _read(text, self.name, self.suffix)
+        refuse_long_tables(tree, self.file)
         return replace(self, tree=tree, written=Written(text, tree))
 
 
@@ -108,9 +111,10 @@ def open_document(path: FilePath) -> Document:
     Raises
     ------
     LineFileError
-        If it is no mapping in YAML or JSON.
+        If it is no mapping in YAML or JSON, or takes long to read or to show.
     """
     tree, _ = _mapping(path)
+    refuse_long_tables(tree, str(path))
     return Document(path.stem, tree, Written(path.read_bytes().decode("utf-8-sig"), tree), path.suffix)
 
 
@@ -140,7 +144,7 @@ def uploaded(name: str, data: bytes) -> Document:
     InconsistentInputError
         If it is too large.
     LineFileError
-        If it is no mapping in YAML or JSON.
+        If it is no mapping in YAML or JSON, or takes long to read or to show.
     """
     if len(data) > MOST_BYTES:
         raise InconsistentInputError(
@@ -148,7 +152,9 @@ def uploaded(name: str, data: bytes) -> Document:
         )
     stem, suffix = plain_name(FilePath(name).stem), FilePath(name).suffix.lower()
     suffix = suffix if suffix in _SUFFIXES else ".yaml"
+    refuse_slow_text(data.decode("utf-8-sig", errors="replace"), stem + suffix)
     tree, _ = _read(data, stem, suffix)
+    refuse_long_tables(tree, stem + suffix)
     return Document(stem, tree, Written(data.decode("utf-8-sig"), tree), suffix)
 
 
@@ -195,7 +201,7 @@ def plain_name(text: str) -> str:
     >>> plain_name("../my line")
     'my_line'
     """
-    kept = re.sub(r"[^A-Za-z0-9_-]", "_", text)
+    kept = re.sub(r"[^A-Za-z0-9_-]+", "_", text)
     return kept.strip("_")[:60] or "line"
 
 

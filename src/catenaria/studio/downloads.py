@@ -35,12 +35,12 @@ def droppers_csv(result: FormResult) -> Download:
     """Return the dropper schedule as `catenaria solve` writes it."""
     with TemporaryDirectory(prefix="catenaria-studio-") as folder:
         file = write_csv(Path(folder) / "droppers.csv", TABLES["droppers"](result))
-        return Download(file.name, file.read_bytes())
+        return Download(f"{plain_name(result.name)}-{file.name}", file.read_bytes())
 
 
 def report_page(result: FormResult) -> Download:
     """Return the report."""
-    return Download("report.html", workflow.report(result).encode())
+    return Download(f"{plain_name(result.name)}-report.html", workflow.report(result).encode())
 
 
 def report_pdf(result: FormResult) -> Download:
@@ -55,7 +55,7 @@ def report_pdf(result: FormResult) -> Download:
     """
     with TemporaryDirectory(prefix="catenaria-studio-") as folder:
         files = workflow.write_report(workflow.report(result), Path(folder) / "report.html", pdf=True)
-        return Download(files[1].name, files[1].read_bytes())
+        return Download(f"{plain_name(result.name)}-{files[1].name}", files[1].read_bytes())
 
 
 def result_folder(result: FormResult) -> Download:
@@ -83,7 +83,7 @@ def _zipped(what: str, line: str, write: Callable[[Path], tuple[Path, ...]]) -> 
         folder = Path(temporary) / what
         files = write(folder)
         if len(files) == 1:
-            return Download(files[0].name, files[0].read_bytes())
+            return Download(f"{plain_name(line)}-{files[0].name}", files[0].read_bytes())
         stream = io.BytesIO()
         with zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED) as archive:
             for file in files:

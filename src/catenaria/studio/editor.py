@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any, Final
 
 from nicegui import ui
 
 from catenaria.errors import Fault, InconsistentInputError
 from catenaria.studio.documents import Tree
-from catenaria.studio.fields import Field, entered, message, shown, unplaced
+from catenaria.studio.fields import Field, entered, filled, message, shown, unplaced
 from catenaria.studio.forms import all_fields, line_fields, span_fields, support_fields, wire_fields
+from catenaria.studio.limits import MOST_TYPED
 from catenaria.studio.spans import span_count, with_span_after, without_span
 from catenaria.studio.state import Session
 
@@ -99,8 +100,8 @@ class Editor:
         extra = " 4.6rem" if buttons else ""
         with ui.element("div").classes("grid").style(f"grid-template-columns: 1.6rem {widths}{extra}"):
             ui.label("")
-            for field in rows[0]:
-                ui.label(_named(field).split(", ")[0]).classes("head")
+            for column in zip(*rows, strict=True):
+                self._head(column)
             if buttons:
                 ui.label("")
             for number, row in enumerate(rows):
@@ -109,6 +110,21 @@ class Editor:
                     self._input(field, "")
                 if buttons:
                     buttons(number)
+
+    def _head(self, column: Sequence[Field]) -> None:
+        first = column[0]
+        with ui.element("div").classes("head"):
+            ui.label(_named(first).split(", ")[0])
+            if first.alike and len(column) > 1:
+                says = f"{_named(first)}: the same in all rows below"
+                button = ui.button(icon="south", on_click=lambda: self._fill(column))
+                button.props(f'flat dense size=xs aria-label="{says}"').tooltip(says)
+                button.mark(f"all-{first.name}")
+
+    def _fill(self, column: Sequence[Field]) -> None:
+        if self._session.edit(filled(column, self._session.document.tree)):
+            self.refresh()
+            self._changed()
 
     def _input(self, field: Field, label: str) -> Any:
         choices = list(field.choices) if field.choices else None
@@ -122,7 +138,11 @@ class Editor:
         return element
 
     def _enter(self, field: Field, element: Any) -> None:
-        tree = entered(field, self._session.document.tree, element.value or "")
+        tree, text = self._session.document.tree, str(element.value or "")
+        if len(text) > MOST_TYPED:
+            ui.notify(f"{_named(field)}: {MOST_TYPED} characters at most", type="negative")
+        else:
+            tree = entered(field, tree, text)
         if self._session.edit(tree):
             self.refresh()
             self._changed()

@@ -19,6 +19,7 @@ from catenaria.units import FORCE, LENGTH, Dimension, to_si
 Kind = Literal["text", "quantity", "number", "list", "positions", "choice"]
 
 _NUMBER: Final = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?")
+_LONGEST: Final = 200  # characters of a quantity
 _DIMENSIONS: Final[dict[str, Dimension]] = {
     "m": LENGTH, "mm": LENGTH, "kN": FORCE, "N": FORCE, "km/h": TRAIN_SPEED,
 }  # fmt: skip
@@ -44,6 +45,8 @@ class Field:
         What may be chosen, or is proposed.
     hint : str
         What holds while nothing is given.
+    alike : bool
+        Whether all rows of a table may well have the same.
     """
 
     path: Path
@@ -53,6 +56,7 @@ class Field:
     instead: Path | None = None
     choices: tuple[str, ...] = ()
     hint: str = ""
+    alike: bool = True
 
     @property
     def name(self) -> str:
@@ -97,6 +101,23 @@ def entered(field: Field, tree: Tree, text: str) -> Tree:
     return replaced(tree, field.path, _read(field, text, _says_unit(old)))
 
 
+def filled(column: Sequence[Field], tree: Tree) -> Tree:
+    """Return the line with the value of a table's first row in all rows; nothing takes the fields away.
+
+    Examples
+    --------
+    >>> column = [Field(("spans", i, "length"), "length", "m") for i in range(3)]
+    >>> filled(column, {"spans": [{"length": "58 m"}, {"length": 65}, {}]})
+    {'spans': [{'length': '58 m'}, {'length': '58 m'}, {'length': '58 m'}]}
+    """
+    value = value_at(tree, column[0].path)
+    for field in column[1:]:
+        if value is not None and field.instead is not None and value_at(tree, field.instead) is not None:
+            tree = replaced(tree, field.instead, None)
+        tree = replaced(tree, field.path, value)
+    return tree
+
+
 def message(field: Field, faults: Sequence[Fault]) -> str:
     """Return what is wrong with a field or with something in it, as the line file's faults say it."""
     own = [fault for fault in faults if _belongs(fault, field)]
@@ -118,7 +139,7 @@ def _belongs(fault: Fault, field: Field) -> bool:
 def _shown(value: object, unit: str) -> str:
     if value is None:
         return ""
-    if isinstance(value, bool) or unit not in _DIMENSIONS:
+    if isinstance(value, bool) or unit not in _DIMENSIONS or _is_long(value):
         return str(value)
     dimension = _DIMENSIONS[unit]
     try:
@@ -127,10 +148,15 @@ def _shown(value: object, unit: str) -> str:
         return str(value)
 
 
+def _is_long(value: object) -> bool:
+    """Return whether a text is too long for a quantity: reading a unit of many factors takes seconds."""
+    return isinstance(value, str) and len(value) > _LONGEST
+
+
 def _positions_shown(field: Field, value: object) -> str:
     try:
         positions: Sequence[Any] = Droppers.model_validate(value).x if value is not None else ()
-    except ValueError:
+    except (ValueError, RecursionError):  # which a unit of hundreds of factors leads to
         given = value_at(value, ("positions",))
         positions = cast("list[Any]", given) if isinstance(given, list) else [given or value]
     return ", ".join(_shown(position, field.unit) for position in positions)

@@ -101,12 +101,12 @@ def _support(path: tuple[str, int], of: str, compound: bool) -> list[Field]:
     messenger = (*path, "messenger_wire")
     height, encumbrance = (*messenger, "height"), (*messenger, "encumbrance")
     fields = [
-        Field((*path, "name"), f"name, {of}", kind="text", hint=f"S{path[-1] + 1}"),
+        Field((*path, "name"), f"name, {of}", kind="text", hint=f"S{path[-1] + 1}", alike=False),
         Field((*path, "contact_wire", "height"), f"contact wire, {of}", "m"),
-        Field((*path, "stagger"), f"stagger, {of}", "mm", hint="0"),
+        Field((*path, "stagger"), f"stagger, {of}", "mm", hint="0", alike=False),
         Field(height, f"messenger, {of}", "m", instead=encumbrance),
         Field(encumbrance, f"encumbrance, {of}", "m", instead=height),
-        Field((*path, "messenger_stagger"), f"messenger stagger, {of}", "mm"),
+        Field((*path, "messenger_stagger"), f"messenger stagger, {of}", "mm", alike=False),
     ]
     if compound:
         fields.append(Field((*path, "auxiliary_messenger", "height"), f"auxiliary, {of}", "m"))

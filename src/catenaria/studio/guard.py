@@ -14,6 +14,15 @@ Application = Callable[[Scope, Receive, Send], Awaitable[None]]
 
 _ENVELOPE: Final = 20_000  # bytes around an uploaded file
 
+# No other site shows the studio in a frame, where clicks could be led astray, or makes anything of its files.
+_HEADERS: Final = (
+    (b"content-security-policy", b"frame-ancestors 'none'; object-src 'none'; base-uri 'self'"),
+    (b"x-frame-options", b"DENY"),
+    (b"x-content-type-options", b"nosniff"),
+    (b"referrer-policy", b"no-referrer"),
+    (b"cross-origin-resource-policy", b"same-origin"),
+)
+
 
 class _TooLargeError(Exception):
     """A request goes on after it should have ended."""
@@ -47,11 +56,11 @@ class Guard:
             return
         headers = {key.decode("latin-1").lower(): value.decode("latin-1") for key, value in scope["headers"]}
         if not self._is_ours(headers):
-            await _refuse(scope, send, 403, "another host or origin")
+            await _refuse(scope, _protected(send), 403, "another host or origin")
         elif _declared(headers) > self._most:
-            await _refuse(scope, send, 413, "too large")
+            await _refuse(scope, _protected(send), 413, "too large")
         else:
-            await self._bounded(scope, receive, send)
+            await self._bounded(scope, receive, _protected(send))
 
     def _is_ours(self, headers: dict[str, str]) -> bool:
         host, origin = headers.get("host", ""), headers.get("origin")
@@ -84,6 +93,17 @@ class Guard:
 def _declared(headers: dict[str, str]) -> int:
     length = headers.get("content-length", "0")
     return int(length) if length.isdecimal() else 0
+
+
+def _protected(send: Send) -> Send:
+    """Return what sends an answer with the headers that tell a browser to keep others out."""
+
+    async def sent(message: Message) -> None:
+        if message["type"] == "http.response.start":
+            message = {**message, "headers": [*message.get("headers", ()), *_HEADERS]}
+        await send(message)
+
+    return sent
 
 
 async def _refuse(scope: Scope, send: Send, status: int, why: str) -> None:

@@ -10,7 +10,7 @@ from nicegui import ui
 from catenaria.results import FormResult
 from catenaria.studio import tables
 from catenaria.studio.compare import differences
-from catenaria.studio.figure import LiveFigure
+from catenaria.studio.figure import LiveFigure, redraw
 from catenaria.studio.plots import Figure, difference_plots, plan_plot, profile_plot, tension_plots
 from catenaria.studio.state import Session
 from catenaria.studio.tables import Shown
@@ -148,7 +148,7 @@ class Panels:
         place, wanted = self._places[name], [figure for figure in figures if figure is not None]
         there = self._live(name)
         if len(there) == len(wanted) == len(place.default_slot.children):
-            return all([element.redraw(figure) for element, figure in zip(there, wanted, strict=True)])
+            return redraw(there, wanted)
         place.clear()
         with place:
             for figure in wanted:

@@ -16,7 +16,8 @@ from catenaria.report.html.figures import support_places
 from catenaria.results import FormResult
 from catenaria.results.film import Film
 from catenaria.studio.documents import Document
-from catenaria.studio.figure import LiveFigure
+from catenaria.studio.figure import LiveFigure, redraw
+from catenaria.studio.limits import AT_ONCE, MOVING
 from catenaria.studio.plots import Figure
 from catenaria.studio.replay_plots import error_figure, frame_count, frame_figures, told
 from catenaria.studio.state import Session
@@ -31,6 +32,7 @@ _READY: Final = (
     "the messenger wire with the upper ones. In space all wires move at once, from where they rest without "
     "weight; that takes up to a minute."
 )
+_BUSY: Final = f"Other tabs have {AT_ONCE} motions computed at present. Try again when one of them has ended."
 
 
 class _StoppedError(Exception):
@@ -144,8 +146,7 @@ class Replay:
 
     def _draw(self, figures: list[Figure]) -> None:
         if self._live:
-            for element, figure in zip(self._live, figures, strict=True):
-                element.redraw(figure)
+            redraw(self._live, figures)
             return
         with self._place:
             self._live = [LiveFigure(figure) for figure in figures]
@@ -177,6 +178,8 @@ class Replay:
                 raise _StoppedError
             work.latest = progress
 
+        if not MOVING.acquire(blocking=False):
+            return _BUSY
         try:
             return workflow.replay(Line.model_validate(form.inputs), listen)[1]
         except _StoppedError:
@@ -186,6 +189,8 @@ class Replay:
         except Exception as error:  # noqa: BLE001, told where the film would be
             _LOG.exception("a replay made the studio fail")
             return f"This is a mistake of catenaria, please report it: {error!r}"
+        finally:
+            MOVING.release()
 
     def _show(self, films: tuple[Film, ...], supports: dict[str, float], document: Document) -> None:
         self._films, self._supports, self._filmed = films, supports, document

@@ -16,7 +16,7 @@ from catenaria.line.load import model_from
 from catenaria.report.checks import Check
 from catenaria.results import FormResult
 from catenaria.studio.documents import Document, placed
-from catenaria.studio.limits import refuse_long_waits
+from catenaria.studio.limits import SOLVING, refuse_long_waits
 
 _logger: Final = logging.getLogger(__name__)
 
@@ -118,18 +118,25 @@ class LatestWins(Generic[Item, Answer]):
     def _run(self) -> None:
         finished = False
         try:
-            while (item := self._next()) is not None:
-                for answer in self._work(item):
-                    with self._lock:
-                        overtaken = bool(self._waiting)
-                    if overtaken:
-                        break
-                    self._deliver(answer)
-            finished = True
+            while not finished:
+                with SOLVING:  # before an item is taken, which may be overtaken meanwhile
+                    finished = not self._work_on_next()
         finally:
             if not finished:  # an error that nobody foresaw ends this thread: the next item gets another
                 with self._lock:
                     self._busy = False
+
+    def _work_on_next(self) -> bool:
+        item = self._next()
+        if item is None:
+            return False
+        for answer in self._work(item):
+            with self._lock:
+                overtaken = bool(self._waiting)
+            if overtaken:
+                break
+            self._deliver(answer)
+        return True
 
     def _next(self) -> Item | None:
         with self._lock:

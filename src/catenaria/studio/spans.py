@@ -6,6 +6,7 @@ from typing import Any, cast
 
 from catenaria.errors import InconsistentInputError
 from catenaria.studio.documents import Tree
+from catenaria.studio.limits import MOST_ROWS
 
 
 def span_count(tree: Tree) -> int:
@@ -21,7 +22,7 @@ def with_span_after(tree: Tree, index: int) -> Tree:
     Raises
     ------
     InconsistentInputError
-        If the line has no supports at its ends.
+        If the line has no supports at its ends, or as many as the studio takes.
 
     Examples
     --------
@@ -30,6 +31,8 @@ def with_span_after(tree: Tree, index: int) -> Tree:
     ['A', 'B', None, 'C']
     """
     spans, supports = _parts(tree)
+    if len(supports) >= MOST_ROWS:
+        raise InconsistentInputError(f"the studio takes {MOST_ROWS} spans and supports at most")
     model = supports[min(max(index, 1), len(supports) - 1)]
     if isinstance(model, dict):
         fields = cast("dict[str, object]", model)

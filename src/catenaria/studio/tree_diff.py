@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Hashable, Sequence
-from typing import cast
+from typing import Final, cast
 
 Pair = tuple[int | None, int | None]
+
+_MOST_PAIRED: Final = 250_000  # 500 items with 500 others
 
 
 def same(one: object, other: object) -> bool:
@@ -47,7 +49,13 @@ def aligned(old: Sequence[object], new: Sequence[object]) -> list[Pair]:
 
 
 def _middle(old: list[Hashable], new: list[Hashable]) -> list[Pair]:
-    """Pair items by the least number of changes (Wagner and Fischer 1974); of equal ones the first counts."""
+    """Pair items by the least number of changes (Wagner and Fischer 1974); of equal ones the first counts.
+
+    Items of long lists are paired in their order instead, because the table would be large.
+    """
+    if len(old) * len(new) > _MOST_PAIRED:
+        many = range(max(len(old), len(new)))
+        return [(i if i < len(old) else None, i if i < len(new) else None) for i in many]
     cost = [[len(old) - i + len(new) - j for j in range(len(new) + 1)] for i in range(len(old) + 1)]
     for i in reversed(range(len(old))):
         for j in reversed(range(len(new))):
