@@ -36,11 +36,10 @@ def line_of(document: Document) -> Line:
 def test_the_bound_is_above_the_elements_that_there_are(name: str) -> None:
     line = line_of(example(name))
     form = workflow.find(line)
-    main = [stage for stage in form.stages]
     wires = {wire.name for wire in form.wires}
     count = sum(
         int(nodes) - 1
-        for stage in main
+        for stage in form.stages
         for chain, nodes in zip(stage.chain, stage.node_count.tolist(), strict=True)
         if chain in wires
     )
@@ -88,7 +87,7 @@ def test_a_text_that_takes_long_to_read_is_refused_before_it_is_read(text: str, 
         uploaded("line.yaml", text.encode())
     with pytest.raises(LineFileError, match=found):
         Document("line", {}).rewritten(text)
-    assert time.perf_counter() - began < 1.0
+    assert time.perf_counter() - began < 10.0  # reading them takes from half a minute to minutes
 
 
 @pytest.mark.parametrize(

@@ -23,7 +23,7 @@ from catenaria.studio.replay_plots import error_figure, frame_count, frame_figur
 from catenaria.studio.state import Session
 from catenaria.workflow import Progress
 
-_LOG: Final = logging.getLogger(__name__)
+_logger: Final = logging.getLogger(__name__)
 
 _TICK: Final = 0.1  # s between two states while it plays
 _READY: Final = (
@@ -186,8 +186,8 @@ class Replay:
             return ()
         except CatenariaError as error:
             return str(error)
-        except Exception as error:  # noqa: BLE001, told where the film would be
-            _LOG.exception("a replay made the studio fail")
+        except Exception as error:
+            _logger.exception("a replay made the studio fail")
             return f"This is a mistake of catenaria, please report it: {error!r}"
         finally:
             MOVING.release()
