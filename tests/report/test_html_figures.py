@@ -80,14 +80,16 @@ def test_a_very_long_line_has_few_figures(make_result: Callable[[int], FormResul
 
 
 def test_every_dropper_says_its_lengths(paper: FormResult) -> None:
-    texts = [text for trace in figures.profile_figures(paper)[0].data for text in trace.get("text", [])]
     droppers = paper.droppers
-    for i in range(droppers.x.size):
-        assert any(
-            f"cut to {droppers.cut_length[i]:.4f} m" in text
-            and f"{droppers.span[i]}.{droppers.number[i]}" in text
-            for text in texts
-        )
+    (marks,) = [trace for trace in figures.profile_figures(paper)[0].data if "text" in trace]
+    assert "cut to %{customdata[1]:.4f} m" in marks["hovertemplate"]
+    names = [f"dropper {droppers.span[i]}.{droppers.number[i]}" for i in range(droppers.x.size)]
+    assert marks["text"] == 2 * names  # at both ends
+    said = np.array(marks["customdata"])
+    for ends in np.split(said, 2):
+        np.testing.assert_allclose(ends[:, 1], droppers.cut_length, atol=5e-5)
+        np.testing.assert_allclose(ends[:, 2], droppers.force_bottom, atol=5e-5)
+    np.testing.assert_allclose(marks["y"], np.r_[droppers.height, droppers.messenger_height], atol=5e-6)
 
 
 def test_the_tension_keeps_its_extremes(curve: FormResult) -> None:

@@ -85,7 +85,7 @@ def test_droppers_without_counterpart_are_not_compared(paper: Document) -> None:
         for span in range(3):
             await enter(user, f"spans[{span}].droppers", "5, 16, 27, 38, 49, 60")
             said = "no span has as many droppers" if span == 2 else "droppers differ by up to"
-            await until(lambda said=said: said in str(one(user, "compared").text))
+            await until(lambda said=said: said in str(one(user, "text-compare").text))
 
     play(paper, story)
 

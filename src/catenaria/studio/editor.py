@@ -71,7 +71,8 @@ class Editor:
             wrong = message(field, faults)
             if element.error != (wrong or None):
                 element.error = wrong or None
-        self._told.clear()
+        if self._told.default_slot.children:  # without a fault, the page is not rendered anew
+            self._told.clear()
         others = unplaced(self._fields, faults)
         marked = len(faults) - len(others)
         with self._told:

@@ -87,7 +87,8 @@ class FileTab:
 
     def mark(self, faults: Sequence[Fault], message: str) -> None:
         """List what is wrong with the document; whoever clicks on it gets there."""
-        self._told.clear()
+        if self._told.default_slot.children:
+            self._told.clear()
         shown = _once(faults)
         with self._told:
             if message:

@@ -17,13 +17,14 @@ from catenaria.studio.documents import EXAMPLES, MOST_BYTES, Document, example, 
 from catenaria.studio.downloads import EXPORTS, Download
 from catenaria.studio.editor import Editor
 from catenaria.studio.file_tab import FileTab
+from catenaria.studio.live import LiveText, Said, show
 from catenaria.studio.panels import Panels
 from catenaria.studio.replay import Replay
 from catenaria.studio.solve import LatestWins, Outcome, outcomes
 from catenaria.studio.state import Session
 
-_AHEAD: Final = 0.03  # s between figures and what is said of them
-_DRAWN: Final = 1.0  # s, after which the audit no longer waits for the figures
+_SENT: Final = 0.005  # s that a form needs to be sent
+_DRAWN: Final = 1.0  # s, after which the audit no longer waits for that
 
 _REFUSED: Final = f"Refused: a line file is YAML or JSON, {MOST_BYTES / 1e6:g} MB at most"
 
@@ -71,7 +72,8 @@ class Page:
         with ui.button("Download", icon="download").props("flat dense no-caps").mark("download"), ui.menu():
             self._items()
         _button("dark_mode", "light or dark", self._toggle_dark)
-        self._status = ui.label("").classes("status").props('role="status"').mark("status")
+        self._status = LiveText(Said("", "status"))
+        self._status.props('role="status"').mark("status")
 
     def _opener(self) -> None:
         """A button in the place of the large element that takes files."""
@@ -132,7 +134,7 @@ class Page:
         self._file.refresh()
 
     def _deliver(self, outcome: Outcome) -> None:
-        """Show an outcome, and let the thread that found it wait: its audit would slow the drawing down."""
+        """Show an outcome, and let the thread that found it wait: its audit would slow that down."""
         if self._loop.is_closed():  # as it is when the server has ended meanwhile
             return
         shown = threading.Event()
@@ -140,22 +142,17 @@ class Page:
         shown.wait(_DRAWN)
 
     def _show(self, outcome: Outcome, shown: threading.Event) -> None:
-        """Draw the open tab; what is said of the outcome follows figures that go ahead of it."""
-        if self._is_over(outcome):
-            shown.set()
-            return
-        self._session.take(outcome)
-        with self._client:
-            ahead = self._panels.complete() if outcome.audited else self._panels.refresh()
-        self._loop.call_later(_AHEAD if ahead else 0.0, self._tell, outcome, shown)
-
-    def _tell(self, outcome: Outcome, shown: threading.Event) -> None:
         if not self._is_over(outcome):
+            self._session.take(outcome)
             with self._client:
+                if outcome.audited:
+                    self._panels.complete()
+                else:
+                    self._panels.refresh()
+                self._show_state()
                 self._editor.mark(outcome.faults, outcome.message)
                 self._file.mark(outcome.faults, outcome.message)
-                self._show_state()
-        shown.set()
+        self._loop.call_later(_SENT, shown.set)
 
     def _is_over(self, outcome: Outcome) -> bool:
         return outcome.document is not self._session.document or self._client.is_deleted
@@ -165,7 +162,7 @@ class Page:
         self._undo.set_enabled(session.can_undo)
         self._redo.set_enabled(session.can_redo)
         self._pin.props(f"color={'accent' if session.pinned is not None else 'primary'}")
-        self._status.text = _said(session)
+        show([self._status], [Said(_said(session))])
 
     def _toggle_pin(self) -> None:
         if self._session.pinned is None:

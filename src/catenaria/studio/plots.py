@@ -79,13 +79,13 @@ def lighter(trace: Trace) -> Trace:
 
 def profile_plot(result: FormResult, variant: FormResult | None, dark: bool) -> Figure:
     """Draw the heights of all wires, and of a variant behind them."""
-    (one,) = profile_figures(result, math.inf)
+    (one,) = profile_figures(result, math.inf, _MOST)
     return as_figure(_over(one, variant, "height"), dark)
 
 
 def plan_plot(result: FormResult, variant: FormResult | None, dark: bool) -> Figure | None:
     """Draw the lateral offsets of all wires, and of a variant; nothing for lines in a plane."""
-    drawings = plan_figures(result, math.inf)
+    drawings = plan_figures(result, math.inf, _MOST)
     return as_figure(_over(drawings[0], variant, "lateral"), dark) if drawings else None
 
 

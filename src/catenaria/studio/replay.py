@@ -16,8 +16,8 @@ from catenaria.report.html.figures import support_places
 from catenaria.results import FormResult
 from catenaria.results.film import Film
 from catenaria.studio.documents import Document
-from catenaria.studio.figure import LiveFigure, redraw
 from catenaria.studio.limits import AT_ONCE, MOVING
+from catenaria.studio.live import LiveFigure, show
 from catenaria.studio.plots import Figure
 from catenaria.studio.replay_plots import error_figure, frame_count, frame_figures, told
 from catenaria.studio.state import Session
@@ -119,8 +119,9 @@ class Replay:
         self._leave()
         self._films, self._filmed = (), None
         self._player.deactivate()
-        self._place.clear()
-        self._live = []
+        if self._live:  # nothing that is there already makes the browser go through the page
+            self._place.clear()
+            self._live = []
         self._said.text = over + _READY
         self._enable()
 
@@ -146,7 +147,7 @@ class Replay:
 
     def _draw(self, figures: list[Figure]) -> None:
         if self._live:
-            redraw(self._live, figures)
+            show(self._live, figures)
             return
         with self._place:
             self._live = [LiveFigure(figure) for figure in figures]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 from catenaria.report.checks import Check
 from catenaria.report.html.study_tables import limit, value
@@ -17,22 +16,26 @@ Row = dict[str, str]
 
 @dataclass(frozen=True)
 class Shown:
-    """A table as the browser's element takes it."""
+    """A table as the browser's element takes it: columns with name, label and alignment, rows of texts."""
 
-    columns: list[dict[str, Any]]
+    title: str
+    columns: list[Row]
     rows: list[Row]
+
+    def __len__(self) -> int:
+        return len(self.rows)
 
 
 def schedule(result: FormResult, variant: FormResult | None) -> Shown:
     """Return the dropper schedule, all spans below each other, with differences from a variant."""
     tables = dropper_tables(result)
     if not tables:
-        return Shown([], [])
-    shown = _shown(tables[0])
+        return Shown("", [], [])
+    shown = _shown("", tables[0])
     rows = [
         {"span": str(number), **row}
         for table, number in zip(tables, sorted(set(result.droppers.span.tolist())), strict=True)
-        for row in _shown(table).rows
+        for row in _shown("", table).rows
     ]
     columns = [_column("span", "span", True), *shown.columns]
     if variant is not None:
@@ -42,22 +45,22 @@ def schedule(result: FormResult, variant: FormResult | None) -> Shown:
             by = longer.get(f"{row['span']}.{row['dropper']}")
             row["longer"] = "new" if by is None else f"{by:+.2f}"
         columns.append(_column("longer", "longer than pinned [mm]", True))
-    return Shown(columns, _keyed(rows))
+    return Shown("", columns, rows)
 
 
 def wires(result: FormResult) -> Shown:
     """Return lengths and tensions of all wires."""
-    return _shown(wire_table(result))
+    return _shown("Wires", wire_table(result))
 
 
 def supports(result: FormResult) -> Shown:
     """Return forces at supports."""
-    return _shown(support_table(result))
+    return _shown("Supports", support_table(result))
 
 
 def arms(result: FormResult) -> Shown:
     """Return forces and hinges of steady arms."""
-    return _shown(arm_table(result))
+    return _shown("Steady arms", arm_table(result))
 
 
 def checks(found: tuple[Check, ...]) -> Shown:
@@ -75,22 +78,18 @@ def checks(found: tuple[Check, ...]) -> Shown:
         for check in found
     ]
     names = ("verdict", "check", "value", "limit", "where", "rule", "note")
-    return Shown([_column(name, name, name in ("value", "limit")) for name in names], _keyed(rows))
+    columns = [_column(name, name, name in ("value", "limit")) for name in names]
+    return Shown("Rules of standards and practice", columns, rows)
 
 
-def _shown(table: Table) -> Shown:
+def _shown(title: str, table: Table) -> Shown:
     columns = [
         _column(one.name, f"{one.name} [{one.unit}]" if one.unit else one.name, one.numeric)
         for one in table.columns
     ]
     names = [one.name for one in table.columns]
-    return Shown(columns, _keyed([dict(zip(names, row, strict=True)) for row in table.rows]))
+    return Shown(title, columns, [dict(zip(names, row, strict=True)) for row in table.rows])
 
 
-def _keyed(rows: list[Row]) -> list[Row]:
-    return [{"id": str(i), **row} for i, row in enumerate(rows)]
-
-
-def _column(name: str, label: str, numeric: bool) -> dict[str, Any]:
-    align = "right" if numeric else "left"
-    return {"name": name, "label": label, "field": name, "align": align}
+def _column(name: str, label: str, numeric: bool) -> Row:
+    return {"name": name, "label": label, "align": "right" if numeric else "left"}

@@ -104,9 +104,7 @@ def line(
         "line": {"color": of, "width": width, "dash": dash},
         "hovertemplate": f"<b>{plain(name)}</b><br>{hover}<extra></extra>",
     }
-    if extra:
-        trace["customdata"] = list(zip(*(numbers(values, 4) for values in extra), strict=True))
-    return trace
+    return trace | _customdata(extra)
 
 
 def points(
@@ -115,13 +113,15 @@ def points(
     name: str,
     of: str,
     texts: Sequence[str],
+    hover: str = "%{text}",
     *,
+    extra: Sequence[FloatArray] = (),
     symbol: str = "circle",
     size: int = 6,
     legend: bool = True,
 ) -> Trace:
-    """Return separate points, each with what is said of it."""
-    return {
+    """Return separate points, each with a text for what is said of it; `extra` are numbers for that."""
+    trace: Trace = {
         "type": "scatter",
         "mode": "markers",
         "name": plain(name),
@@ -131,8 +131,13 @@ def points(
         "y": numbers(y, 5),
         "marker": {"color": of, "size": size, "symbol": symbol},
         "text": list(texts),
-        "hovertemplate": "%{text}<extra></extra>",
+        "hovertemplate": f"{hover}<extra></extra>",
     }
+    return trace | _customdata(extra)
+
+
+def _customdata(extra: Sequence[FloatArray]) -> Trace:
+    return {"customdata": list(zip(*(numbers(values, 4) for values in extra), strict=True))} if extra else {}
 
 
 def bars(

@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from catenaria.report.html import drawing
 from catenaria.report.html.drawing import Drawing, Trace, colour, wire_colour
-from catenaria.report.html.marks import arm_traces, dropper_text, dropper_traces, mass_traces
-from catenaria.report.html.thinning import thinned
+from catenaria.report.html.marks import arm_traces, dropper_points, dropper_traces, mass_traces
+from catenaria.report.html.thinning import INTERVALS, thinned
 from catenaria.report.html.windows import MOST, Window, extent, support_places, windows
-from catenaria.report.names import dropper_names
-from catenaria.results import FormResult, WireForm
+from catenaria.results import FormResult, Profile, WireForm
 
 __all__ = [
     "extent",
@@ -31,14 +31,19 @@ _HEIGHT = 320
 _MARGIN = 0.012  # of a figure's width on either side, for marks and names at its edges
 _IN_PLANE = 1e-6  # m
 _THIN, _THICK = 1.8, 4.0  # width of lines [px]
-_ONCE = ("stitch wire", "mid-point anchor")  # roles of which there are many wires: one label for all
+_FEWEST = 8  # intervals of a short wire
+_ONCE = ("stitch wire", "mid-point anchor")  # roles of which there are many wires: one trace for all
 
 
-def profile_figures(result: FormResult, most: float = MOST) -> list[Drawing]:
-    """Draw the heights of all wires with their droppers, seen from the side, `most` metres in one figure."""
+def profile_figures(result: FormResult, most: float = MOST, intervals: int = INTERVALS) -> list[Drawing]:
+    """Draw the heights of all wires with their droppers, seen from the side, `most` metres in one figure.
+
+    Of every one of as many `intervals`, only the peaks are drawn.
+    """
+    height = _Across(lambda profile: profile.height, intervals)
 
     def draw(window: Window) -> list[Trace]:
-        wires = _wires(result.wires, window, lambda wire: wire.profile.height)
+        wires = _wires(result.wires, window, height)
         return [*wires, *dropper_traces(result, window), *mass_traces(result, window)]
 
     return list(_in_windows(result, "profile", "Heights of all wires", "height [m]", draw, most))
@@ -54,7 +59,7 @@ def height_figures(result: FormResult, tolerance: float | None) -> list[Drawing]
     return list(_in_windows(result, "heights", title, "above wanted [mm]", draw, MOST))
 
 
-def plan_figures(result: FormResult, most: float = MOST) -> list[Drawing]:
+def plan_figures(result: FormResult, most: float = MOST, intervals: int = INTERVALS) -> list[Drawing]:
     """Draw the lateral offsets of all wires with arms, seen from above; nothing if all lie in one plane.
 
     Notes
@@ -63,6 +68,7 @@ def plan_figures(result: FormResult, most: float = MOST) -> list[Drawing]:
     """
     if all(float(np.abs(wire.profile.lateral).max()) < _IN_PLANE for wire in result.wires):
         return []
+    lateral = _Across(lambda profile: profile.lateral, intervals)
 
     def draw(window: Window) -> list[Trace]:
         axis = drawing.line(
@@ -72,8 +78,8 @@ def plan_figures(result: FormResult, most: float = MOST) -> list[Drawing]:
         contact = [wire for wire in result.wires if wire.role == "contact wire"]
         above = [wire for wire in result.wires if wire.role != "contact wire"]
         lines = [
-            *_wires(above, window, lambda wire: wire.profile.lateral, _THICK),
-            *_wires(contact, window, lambda wire: wire.profile.lateral),
+            *_wires(above, window, lateral, _THICK),
+            *_wires(contact, window, lateral),
         ]
         return [silent, *lines, *arm_traces(result, window)]
 
@@ -119,38 +125,46 @@ def _reach(traces: list[Trace]) -> tuple[float, float]:
     return low - margin, high + margin
 
 
+@dataclass(frozen=True)
+class _Across:
+    """What of a wire is drawn over the chainage, and in how many intervals of a figure."""
+
+    of: Callable[[Profile], FloatArray]
+    intervals: int
+
+    def points(self, wire: WireForm, window: Window) -> FloatArray:
+        """Return chainage, what is drawn, and what is said of each point, and a gap behind the last one."""
+        profile = wire.profile
+        here = np.flatnonzero(window.mask(profile.chainage))
+        if not here.size:
+            return np.empty((5, 0))
+        x, y = profile.chainage[here], self.of(profile)[here]
+        share = float(np.ptp(x)) / (window.extent[1] - window.extent[0])
+        most = max(round(share * self.intervals), _FEWEST)
+        here = here[thinned(x, (y, profile.tension[here]), most)]
+        said = (profile.height[here], 1e3 * profile.lateral[here], profile.tension[here])
+        drawn = np.stack((profile.chainage[here], self.of(profile)[here], *said))
+        return np.pad(drawn, ((0, 0), (0, 1)), constant_values=np.nan)
+
+
 _HOVER = (
     "chainage %{x:.2f} m<br>height %{customdata[0]:.4f} m<br>to the left %{customdata[1]:.1f} mm<br>"
     "tension %{customdata[2]:.0f} N"
 )
 
 
-def _wires(
-    wires: Sequence[WireForm], window: Window, across: Callable[[WireForm], FloatArray], width: float = _THIN
-) -> list[Trace]:
-    """Draw wires; what is across is their height or lateral offset."""
-    traces: list[Trace] = []
-    named: set[str] = set()
+def _wires(wires: Sequence[WireForm], window: Window, drawn: _Across, width: float = _THIN) -> list[Trace]:
+    """Draw wires, many of one role in one trace with gaps between them, which browsers draw faster."""
+    groups: dict[str, list[WireForm]] = {}
     for wire in wires:
-        profile = wire.profile
-        here = np.flatnonzero(window.mask(profile.chainage))
-        if here.size < 2:
-            continue
-        x, y = profile.chainage[here], across(wire)[here]
-        here = here[thinned(x, (y, profile.tension[here]))]
-        group = wire.role if wire.role in _ONCE else wire.name
-        trace = drawing.line(
-            profile.chainage[here],
-            across(wire)[here],
-            wire.name,
-            wire_colour(wire.name, wire.role),
-            _HOVER,
-            extra=(profile.height[here], 1e3 * profile.lateral[here], profile.tension[here]),
-            width=width,
-            legend=group not in named,
-        )
-        named.add(group)
-        traces.append(trace | {"name": drawing.plain(group), "legendgroup": drawing.plain(group)})
+        groups.setdefault(wire.role if wire.role in _ONCE else wire.name, []).append(wire)
+    traces: list[Trace] = []
+    for name, members in groups.items():
+        parts = [part for wire in members if (part := drawn.points(wire, window)).shape[1] > 2]
+        if parts:
+            x, y, *extra = np.concatenate(parts, axis=1)[:, :-1]
+            of = wire_colour(name, members[0].role)
+            traces.append(drawing.line(x, y, name, of, _HOVER, extra=extra, width=width))
     return traces
 
 
@@ -160,10 +174,8 @@ def _above_wanted(result: FormResult, window: Window, tolerance: float | None) -
     droppers = result.droppers
     own = np.isin(droppers.lower_wire, [wire.name for wire in contact]) & window.mask(droppers.x)
     here = np.flatnonzero(own)
-    names = dropper_names(result)
-    texts = [dropper_text(result, i, names[i]) for i in here.tolist()]
     error = 1e3 * droppers.height_error[here]
-    marks = drawing.points(droppers.x[here], error, "at droppers", colour("ink"), texts, size=5)
+    marks = dropper_points(result, here, error, "at droppers", colour("ink"))
     return [*([] if tolerance is None else _band(window, 1e3 * tolerance)), *lines, marks]
 
 

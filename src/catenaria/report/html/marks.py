@@ -13,39 +13,52 @@ from catenaria.report.names import dropper_names
 from catenaria.results import FormResult
 
 FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.intp]
+
+
+_DROPPER = (
+    "<b>%{text}</b><br>chainage %{x:.2f} m<br>length %{customdata[0]:.4f} m, "
+    "cut to %{customdata[1]:.4f} m<br>force below %{customdata[2]:.1f} N, above %{customdata[3]:.1f} N<br>"
+    "height %{customdata[4]:.4f} m, wanted %{customdata[5]:.4f} m"
+)
 
 
 def dropper_traces(result: FormResult, window: Window) -> list[Trace]:
-    """Draw droppers from wire to wire, and mark those that are slack."""
+    """Draw droppers from wire to wire with marks at their ends, and mark those that are slack."""
     droppers = result.droppers
     here = np.flatnonzero(window.mask(droppers.x))
     x, low, high = droppers.x[here], droppers.height[here], droppers.messenger_height[here]
-    green, names = colour("dropper"), dropper_names(result)
-    texts = [dropper_text(result, i, names[i]) for i in here.tolist()]
+    green, ends = colour("dropper"), np.concatenate((low, high))
     traces = [
         drawing.bars(x, low, high, "dropper", green),
-        drawing.points(x, low, "dropper", green, texts, size=5, legend=False),
-        drawing.points(x, high, "dropper", green, texts, size=5, legend=False),
+        dropper_points(result, np.tile(here, 2), ends, "dropper", green, legend=False),
     ]
     slack = droppers.slack[here]
     if slack.any():
-        marked = [text for text, loose in zip(texts, slack, strict=True) if loose]
-        middle = 0.5 * (low + high)[slack]
-        traces.append(
-            drawing.points(x[slack], middle, "slack dropper", colour("fails"), marked, symbol="x", size=8)
-        )
+        middle, red = 0.5 * (low + high)[slack], colour("fails")
+        traces.append(dropper_points(result, here[slack], middle, "slack dropper", red, symbol="x", size=8))
     return traces
 
 
-def dropper_text(result: FormResult, i: int, name: str) -> str:
-    """Return what is said of a dropper of that name."""
-    d = result.droppers
-    return (
-        f"<b>{name}</b><br>chainage {d.x[i]:.2f} m<br>length {d.length[i]:.4f} m, "
-        f"cut to {d.cut_length[i]:.4f} m<br>force below {d.force_bottom[i]:.1f} N, "
-        f"above {d.force_top[i]:.1f} N<br>"
-        f"height {d.height[i]:.4f} m, wanted {d.target_height[i]:.4f} m"
-    )
+def dropper_points(
+    result: FormResult,
+    here: IntArray,
+    y: FloatArray,
+    name: str,
+    of: str,
+    *,
+    symbol: str = "circle",
+    size: int = 5,
+    legend: bool = True,
+) -> Trace:
+    """Return a point for each of some droppers, with its lengths, forces and heights."""
+    d, names = result.droppers, dropper_names(result)
+    places: list[int] = here.tolist()
+    said = (d.length, d.cut_length, d.force_bottom, d.force_top, d.height, d.target_height)
+    return drawing.points(
+        d.x[here], y, name, of, [names[i] for i in places], _DROPPER,
+        extra=[values[here] for values in said], symbol=symbol, size=size, legend=legend,
+    )  # fmt: skip
 
 
 def mass_traces(result: FormResult, window: Window) -> list[Trace]:

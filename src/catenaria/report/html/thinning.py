@@ -8,8 +8,10 @@ from numpy.typing import NDArray
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.intp]
 
+INTERVALS = 600  # of a figure
 
-def thinned(x: FloatArray, values: tuple[FloatArray, ...], most: int = 600) -> IntArray:
+
+def thinned(x: FloatArray, values: tuple[FloatArray, ...], most: int = INTERVALS) -> IntArray:
     """Return the indices of the points to draw.
 
     Parameters
