@@ -79,17 +79,26 @@ def test_a_very_long_line_has_few_figures(make_result: Callable[[int], FormResul
     assert len(figures.profile_figures(make_result(120))) == 12
 
 
-def test_every_dropper_says_its_lengths(paper: FormResult) -> None:
+def test_every_dropper_says_its_lengths_at_both_ends(paper: FormResult) -> None:
     droppers = paper.droppers
-    (marks,) = [trace for trace in figures.profile_figures(paper)[0].data if "text" in trace]
-    assert "cut to %{customdata[1]:.4f} m" in marks["hovertemplate"]
+    (bars,) = [trace for trace in figures.profile_figures(paper)[0].data if "text" in trace]
+    assert bars["mode"] == "lines+markers"
+    assert "cut to %{customdata[1]:.4f} m" in bars["hovertemplate"]
     names = [f"dropper {droppers.span[i]}.{droppers.number[i]}" for i in range(droppers.x.size)]
-    assert marks["text"] == 2 * names  # at both ends
-    said = np.array(marks["customdata"])
-    for ends in np.split(said, 2):
-        np.testing.assert_allclose(ends[:, 1], droppers.cut_length, atol=5e-5)
-        np.testing.assert_allclose(ends[:, 2], droppers.force_bottom, atol=5e-5)
-    np.testing.assert_allclose(marks["y"], np.r_[droppers.height, droppers.messenger_height], atol=5e-6)
+    said = np.array(bars["customdata"]).reshape(-1, 3, 6)
+    height = np.array(bars["y"], dtype=np.float64).reshape(-1, 3)
+    for end, wire in enumerate((droppers.height, droppers.messenger_height)):
+        assert bars["text"][end::3] == names
+        np.testing.assert_allclose(said[:, end, 1], droppers.cut_length, atol=5e-5)
+        np.testing.assert_allclose(said[:, end, 2], droppers.force_bottom, atol=5e-5)
+        np.testing.assert_allclose(height[:, end], wire, atol=5e-6)
+
+
+def test_marks_do_not_touch_each_other(curve: FormResult) -> None:
+    (whole,) = figures.profile_figures(curve, math.inf)
+    assert [trace["mode"] for trace in whole.data if trace["name"] == "dropper"] == ["lines"]
+    part = figures.profile_figures(curve)[0]
+    assert [trace["mode"] for trace in part.data if trace["name"] == "dropper"] == ["lines+markers"]
 
 
 def test_the_tension_keeps_its_extremes(curve: FormResult) -> None:

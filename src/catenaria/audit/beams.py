@@ -47,7 +47,7 @@ class FreeBeam(FreeWire):
         pairs = pairwise(self.curve.s.tolist())
         return np.array([self.curve.stretched_length(*pair) for pair in pairs]) / self.curve.L
 
-    @property
+    @cached_property
     def mean_tension(self) -> FloatArray:
         """The true axial force EA eps |r'| of every element [N]."""
         x = self.mean_stretch

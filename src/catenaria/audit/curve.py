@@ -62,12 +62,12 @@ class Curve:
         if self.s.size < 2 or self.r.shape != shape or self.r1.shape != shape or np.any(np.diff(self.s) <= 0):
             raise InconsistentInputError("a wire of the result needs nodes at ascending coordinates")
 
-    @property
+    @cached_property
     def L(self) -> FloatArray:  # noqa: N802, the symbol of the paper
         """Unstressed length of every element [m]."""
         return np.diff(self.s)
 
-    @property
+    @cached_property
     def q(self) -> FloatArray:
         """Coordinates r_i, r_i', r_j, r_j' of every element, shape (n - 1, 4, 3)."""
         return np.stack((self.r[:-1], self.r1[:-1], self.r[1:], self.r1[1:]), axis=1)
@@ -77,8 +77,8 @@ class Curve:
         element = np.clip(np.searchsorted(self.s, s, side=side) - 1, 0, self.s.size - 2)
         L = self.L[element]
         t = (s - self.s[element]) / L
-        N, N1, N2 = (shape_functions(t, L, order) for order in range(3))
-        q = self.q[element]
+        powers, q = _powers(t), self.q[element]
+        N, N1, N2 = (_shape_functions(powers, L, order) for order in range(3))
         r, r1, r2 = (np.einsum("nk,nki->ni", functions, q) for functions in (N, N1, N2))
         return Points(element, N, r, r1, r2)
 
@@ -120,9 +120,16 @@ def shape_functions(t: FloatArray, L: FloatArray, order: int) -> FloatArray:
     FloatArray, shape (*t.shape, 4)
         In the order of r_i, r_i', r_j, r_j'.
     """
-    powers = _CUBICS if order == 0 else _DERIVATIVES[order - 1]
-    values = np.stack((np.ones_like(t), t, t * t, t * t * t), axis=-1) @ powers.T
-    values[..., 1::2] *= L[..., None]
-    for _ in range(order):
-        values /= L[..., None]
+    return _shape_functions(_powers(t), L, order)
+
+
+def _powers(t: FloatArray) -> FloatArray:
+    return np.stack((np.ones_like(t), t, t * t, t * t * t), axis=-1)
+
+
+def _shape_functions(powers: FloatArray, L: FloatArray, order: int) -> FloatArray:
+    cubics = _CUBICS if order == 0 else _DERIVATIVES[order - 1]
+    values, length = powers @ cubics.T, L[..., None]
+    values[..., ::2] /= length**order
+    values[..., 1::2] *= length ** (1 - order)
     return values

@@ -90,7 +90,8 @@ def nodal_residual(
 
 def _energy_density(r1: ComplexArray, r2: ComplexArray, conductor: Conductor) -> ComplexArray:
     """Return (EA eps^2 + EJ kappa^2)/2; products without conjugates, which are not analytic."""
-    a = np.sum(r1 * r1, axis=-1)
+    x, y, z = np.moveaxis(r1, -1, 0)
+    a = x * x + y * y + z * z
     return 0.5 * conductor.EA * (0.5 * (a - 1.0)) ** 2 + bending_density(r1, r2, conductor)
 
 
@@ -98,5 +99,6 @@ def bending_density(r1: ComplexArray, r2: ComplexArray, conductor: Conductor) ->
     """Return EJ kappa^2/2 with the curvature (10), for complex r' and r''."""
     x, y, z = np.moveaxis(r1, -1, 0)
     u, v, w = np.moveaxis(r2, -1, 0)
-    cross = (y * w - z * v) ** 2 + (z * u - x * w) ** 2 + (x * v - y * u) ** 2
-    return 0.5 * conductor.EJ * cross / np.sum(r1 * r1, axis=-1) ** 3
+    a, b, c = y * w - z * v, z * u - x * w, x * v - y * u
+    size = x * x + y * y + z * z
+    return 0.5 * conductor.EJ * (a * a + b * b + c * c) / (size * size * size)

@@ -57,17 +57,17 @@ class FreeBody:
         """Material coordinates of start and end [m]."""
         return self.form.profile.s[[0, -1]]
 
-    @property
+    @cached_property
     def joint_s(self) -> FloatArray:
         """Material coordinates of supports, droppers, start and end [m]."""
         return np.concatenate((self.support_s, self.clamp_s, self.end_s))
 
-    @property
+    @cached_property
     def joint_force(self) -> FloatArray:
         """Their forces on the wire, shape (m + n + 2, 3) [N]."""
         return np.concatenate((self.support_force, self.clamp_force, -self.form.end_force))
 
-    @property
+    @cached_property
     def joint_name(self) -> tuple[str, ...]:
         """Their names."""
         supports = (f"support {name}" for name in self.stated.support_name)
@@ -118,7 +118,12 @@ class FreeWire(FreeBody):
 
     @property
     def force_tolerance(self) -> float:
-        """Force that may be missing to a balance [N].
+        """Force that may be missing to a balance [N]."""
+        return super().force_tolerance + self._rounding
+
+    @cached_property
+    def _rounding(self) -> float:
+        """Force that rounding of positions leaves [N].
 
         Notes
         -----
@@ -127,14 +132,14 @@ class FreeWire(FreeBody):
         """
         unit = float(np.finfo(np.float64).eps * np.max(np.abs(self.curve.r)))
         stiffest = float(self.stated.conductor.EA / self.curve.L.min())
-        return super().force_tolerance + _ROUNDING * unit * stiffest
+        return _ROUNDING * unit * stiffest
 
     @cached_property
     def residual(self) -> FloatArray:
         """Residual of every node: forces [N] and moments per slope [N m], shape (n, 2, 3)."""
         return nodal_residual(self.curve, self.stated.conductor, self.gravity, self.joint_s, self.joint_force)
 
-    @property
+    @cached_property
     def mean_tension(self) -> FloatArray:
         """The mean over each element of the true axial force EA eps |r'| [N]."""
         _, weights = clenshaw_curtis(INTERVALS)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -18,13 +16,16 @@ FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 
 NEAR = 0.05  # m by which an element may lie beyond a support and still count as between supports
-_SAMPLES = 8  # points in each element: the sag of a 9.5 m bay is then met to 0.01 mm
+SAMPLES = 8  # points of a profile in each element: the sag of a 9.5 m bay is then met to 0.01 mm
 
 
-OnTrack = Callable[[FloatArray, FloatArray], Frames]
+def samples(chain: Chain) -> FloatArray:
+    """Return the material coordinates of the points of a cable's profile: nodes and points between [m]."""
+    parts = np.arange(SAMPLES) / SAMPLES
+    return np.append((chain.knots[:-1, None] + chain.L[:, None] * parts).ravel(), chain.knots[-1])
 
 
-def profile(chain: Chain, z: FloatArray, on_track: OnTrack | None = None) -> Profile:
+def profile(chain: Chain, z: FloatArray, frames: Frames | None = None) -> Profile:
     """Return position and internal forces along a cable, eqs. (9)-(11), at several points of each element.
 
     Parameters
@@ -33,9 +34,8 @@ def profile(chain: Chain, z: FloatArray, on_track: OnTrack | None = None) -> Pro
         The cable.
     z : FloatArray
         Unknowns.
-    on_track : callable, optional
-        Returns the track frames at which points are, from their material coordinates (n,) and their
-        positions (n, 3); without it the track is the x axis.
+    frames : Frames, optional
+        Those of the track in whose planes the `samples` are; without them the track is the x axis.
 
     Notes
     -----
@@ -44,18 +44,16 @@ def profile(chain: Chain, z: FloatArray, on_track: OnTrack | None = None) -> Pro
     interpolated between element means, while `strain_tension` is eq. (11) at the point, as the paper draws
     it.
     """
-    parts = np.arange(_SAMPLES) / _SAMPLES
-    s = np.append((chain.knots[:-1, None] + chain.L[:, None] * parts).ravel(), chain.knots[-1])
+    s = samples(chain)
     point = chain.evaluate(z, s)
     size = np.linalg.norm(point.r1, axis=1)
     N = chain.section.EA * 0.5 * (size**2 - 1.0)
     kappa = _curvature(point)
     before = _curvature(chain.evaluate(z, chain.knots, _element_before(chain)))
-    kappa[::_SAMPLES] = 0.5 * (kappa[::_SAMPLES] + before)
+    kappa[::SAMPLES] = 0.5 * (kappa[::SAMPLES] + before)
     x, y, up = point.r.T.copy()
     chainage, lateral, height, along = x, y, up, point.r1[:, 0]
-    if on_track is not None:
-        frames = on_track(s, point.r)
+    if frames is not None:
         chainage, lateral, height = frames.chainage, frames.lateral(point.r), frames.height(point.r)
         along = np.einsum("ni,ni->n", frames.along, point.r1)
     tension = np.interp(s, chain.knots[:-1] + 0.5 * chain.L, element_tension(chain, z))

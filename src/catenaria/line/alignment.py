@@ -195,11 +195,11 @@ class Alignment:
         """
         c = np.broadcast_to(np.asarray(guess, dtype=np.float64), r.shape[:1]).copy()
         for _ in range(LOCATE_STEPS):
-            frame = self.frames(c)
-            offset = r - frame.origin
-            left = frame.along[:, 0] * offset[:, 1] - frame.along[:, 1] * offset[:, 0]
-            slope = 1.0 - self.plan.bend(c)[0] * left
-            step = np.sum(frame.along * offset, axis=1) / np.where(slope > 0.0, slope, np.nan)
+            heading, drift = self.plan.at(c)
+            cos, sin = np.cos(heading), np.sin(heading)
+            x, y = r[:, 0] - c - drift[:, 0], r[:, 1] - drift[:, 1]  # t is level: heights do not count
+            slope = 1.0 - self.plan.bend(c)[0] * (cos * y - sin * x)
+            step = (cos * x + sin * y) / np.where(slope > 0.0, slope, np.nan)
             c = c + step
             if np.all(np.abs(step) <= 1e-12 + 4.0 * np.spacing(np.abs(c))):
                 return c

@@ -7,11 +7,11 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from catenaria.discretise.read_back import NEAR, element_tension, profile
+from catenaria.discretise.read_back import NEAR, element_tension
 from catenaria.discretise.spatial.natural import Natural
+from catenaria.discretise.spatial.on_track import track_profiles
 from catenaria.discretise.spatial.read_supports import arms, supports
 from catenaria.line import Line
-from catenaria.line.alignment import Frames
 from catenaria.loading.built_line import LoadedLine
 from catenaria.results.case import LineState, LoadedDroppers, LoadedWire
 
@@ -54,13 +54,8 @@ def _droppers(line: Line, loaded: LoadedLine, broken: Mask) -> LoadedDroppers:
 
 def _wires(line: Line, loaded: LoadedLine, state: Natural) -> Iterator[LoadedWire]:
     model, z = state.model, state.z
-    for k, (laid, wire) in enumerate(zip(model.layout.wires, state.wires, strict=True)):
-        stations = state.stations(k)
-
-        def on_track(s: FloatArray, r: FloatArray, known: tuple[FloatArray, FloatArray] = stations) -> Frames:
-            return line.alignment.frames(line.alignment.locate(r, np.interp(s, *known)))
-
-        shape = profile(wire, z, on_track)
+    profiles = track_profiles(state, line.alignment)
+    for k, (laid, wire, shape) in enumerate(zip(model.layout.wires, state.wires, profiles, strict=True)):
         held = z[model.hold_s[model.layout.holds.wire == k]]
         start, end = (0.0, wire.knots[-1]) if laid.tied else (held.min(), held.max())
         between = (wire.knots[:-1] >= start - NEAR) & (wire.knots[1:] <= end + NEAR)

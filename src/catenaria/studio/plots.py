@@ -25,7 +25,7 @@ from catenaria.studio.palette import coloured
 Figure = dict[str, Any]
 
 _NUMBERS: Final = {"x": "f8", "y": "f4", "customdata": "f4"}  # chainages have more digits
-_MOST: Final = 150  # intervals of a line that is drawn anew after every edit
+_MOST: Final = 100  # intervals of lines that are drawn anew after every edit
 
 # Not "responsive": figures in a tab that is being closed would be resized, which Plotly refuses. No list of
 # all buttons either: Plotly puts objects into it, with which NiceGUI's comparison of settings does not end.
@@ -40,7 +40,7 @@ _CONFIG: Final = {
 def as_figure(one: Drawing, dark: bool) -> Figure:
     """Return what Plotly draws; zooming stays as it is while data change."""
     layout = coloured(one.layout, dark) | {"height": one.height, "uirevision": one.id, "autosize": True}
-    data = [packed(coloured(lighter(trace), dark)) for trace in one.data]
+    data = [packed(coloured(trace, dark)) for trace in one.data]
     return {"data": data, "layout": layout, "config": _CONFIG}
 
 
@@ -61,22 +61,6 @@ def _bytes(values: list[Any], kind: str) -> dict[str, str]:
     return {"dtype": kind, "bdata": b64encode(array.tobytes()).decode()} | shape
 
 
-def lighter(trace: Trace) -> Trace:
-    """Return a line of fewer points, its peaks among them; anything else as it is.
-
-    Examples
-    --------
-    >>> x = [0.1 * i for i in range(4000)]
-    >>> len(lighter({"mode": "lines", "x": x, "y": x, "customdata": x})["customdata"]) < 1000
-    True
-    """
-    x, y = trace.get("x", []), trace.get("y", [])
-    if trace.get("mode") != "lines" or len(x) <= 2 * _MOST or None in y:
-        return trace
-    kept: list[int] = thinned(np.asarray(x), (np.asarray(y),), _MOST).tolist()
-    return trace | {key: [trace[key][i] for i in kept] for key in _NUMBERS if key in trace}
-
-
 def profile_plot(result: FormResult, variant: FormResult | None, dark: bool) -> Figure:
     """Draw the heights of all wires, and of a variant behind them."""
     (one,) = profile_figures(result, math.inf, _MOST)
@@ -91,7 +75,7 @@ def plan_plot(result: FormResult, variant: FormResult | None, dark: bool) -> Fig
 
 def tension_plots(result: FormResult, dark: bool) -> list[Figure]:
     """Draw the tension along every wire that supports hold."""
-    return [as_figure(one, dark) for one in tension_figures(result)]
+    return [as_figure(one, dark) for one in tension_figures(result, _MOST)]
 
 
 def difference_plots(result: FormResult, variant: FormResult, dark: bool) -> list[Figure]:
@@ -103,9 +87,10 @@ def difference_plots(result: FormResult, variant: FormResult, dark: bool) -> lis
     stems = drawing.bars(
         found.x, np.zeros(found.x.size), found.cut_length, "droppers", colour("dropper"), legend=False
     )
+    kept = thinned(found.chainage, (found.height,), _MOST)
     height = drawing.line(
-        found.chainage,
-        found.height,
+        found.chainage[kept],
+        found.height[kept],
         "contact wire",
         colour("contact"),
         "chainage %{x:.2f} m<br>%{y:.2f} mm higher",
@@ -138,7 +123,7 @@ def _over(one: Drawing, variant: FormResult | None, across: str) -> Drawing:
     behind: list[Trace] = []
     for wire in variant.wires:
         x, y = wire.profile.chainage, getattr(wire.profile, across)
-        kept = thinned(x, (y,))
+        kept = thinned(x, (y,), _MOST)
         hover = "chainage %{x:.2f} m<br>%{y:.4f} m"
         trace = drawing.line(
             x[kept],

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -41,16 +42,16 @@ class FreeSpatialWire(FreeWire):
     clamp_name: tuple[str, ...]
     weighs: NDArray[np.bool_]
 
-    @property
+    @cached_property
     def joint_name(self) -> tuple[str, ...]:
         """Names of supports, clamps, start and end."""
         supports = (f"support {name}" for name in self.stated.support_name)
         return (*supports, *self.clamp_name, "its start", "its end")
 
-    @property
+    @cached_property
     def outer_force(self) -> FloatArray:
         """Forces on it at all its joints that come from outside of the line, shape (m + n + 2, 3) [N]."""
-        outer = self.joint_force
+        outer = self.joint_force.copy()
         outer[self.support_s.size : -2][~self.weighs] = 0.0
         if self.stated.tied:
             outer[-2:] = 0.0

@@ -5,30 +5,33 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from catenaria.discretise.read_back import NEAR, element_tension, profile, sag, stretched_length
+from catenaria.discretise.read_back import NEAR, SAMPLES, element_tension, sag, stretched_length
 from catenaria.discretise.spatial.demands import TensionDemand, tension_demands
 from catenaria.discretise.spatial.natural import Natural
-from catenaria.line.alignment import Alignment, Frames
-from catenaria.results.form import WireForm
+from catenaria.discretise.spatial.on_track import located, track_profiles
+from catenaria.line.alignment import Alignment
+from catenaria.results.form import Profile, WireForm
 
 FloatArray = NDArray[np.float64]
 
 
 def wire_forms(state: Natural, alignment: Alignment) -> tuple[WireForm, ...]:
     """Return what was found for all wires."""
+    profiles = track_profiles(state, alignment)
+    hung = located(state, alignment, [_hung(state, k) for k in range(len(state.wires))])
+    sags = [
+        sag(shape, frames.chainage, frames.height(r))
+        for shape, frames, r in zip(profiles, *hung, strict=True)
+    ]
     demands = {demand.wire: demand for demand in tension_demands(state.model, state.solved)}
-    return tuple(_wire_form(state, alignment, demands[k]) for k in range(len(state.wires)))
+    return tuple(_wire_form(state, alignment, demands[k], profiles[k], sags[k]) for k in range(len(profiles)))
 
 
-def _wire_form(state: Natural, alignment: Alignment, demand: TensionDemand) -> WireForm:
+def _wire_form(
+    state: Natural, alignment: Alignment, demand: TensionDemand, shape: Profile, depth: float
+) -> WireForm:
     k = demand.wire
     laid, wire, z = state.model.layout.wires[k], state.wires[k], state.z
-    stations = state.stations(k)
-
-    def on_track(s: FloatArray, r: FloatArray) -> Frames:
-        return alignment.frames(alignment.locate(r, np.interp(s, *stations)))
-
-    shape = profile(wire, z, on_track)
     start, end = (0.0, float(wire.knots[-1])) if laid.tied else _held(state, k)
     between = (wire.knots[:-1] >= start - NEAR) & (wire.knots[1:] <= end + NEAR)
     tension, L = element_tension(wire, z)[between], wire.L[between]
@@ -36,8 +39,6 @@ def _wire_form(state: Natural, alignment: Alignment, demand: TensionDemand) -> W
     end_force = _end_force(state, k)
     reaction = np.linalg.norm(end_force, axis=1)
     along = np.abs(np.einsum("ni,ni->n", alignment.frames(shape.chainage[[0, -1]]).along, end_force))
-    first = state.model.unknowns.start[wire.nodes[:, :3]]
-    frames = on_track(wire.knots, first)
     return WireForm(
         name=laid.name,
         role=laid.role,
@@ -56,10 +57,10 @@ def _wire_form(state: Natural, alignment: Alignment, demand: TensionDemand) -> W
         tension_max=float(tension.max()),
         tension_mean=float(tension @ L / L.sum()),
         travel=float(z[demand.parameter[0]]),
-        sag=sag(shape, *_hung(state, alignment, k)),
+        sag=depth,
         profile=shape,
-        start_x=frames.chainage,
-        start_z=frames.height(first),
+        start_x=shape.chainage[::SAMPLES],
+        start_z=shape.height[::SAMPLES],
     )
 
 
@@ -78,10 +79,10 @@ def _end_force(state: Natural, wire: int) -> FloatArray:
     return state.z[model.tie_force[own[np.argsort(ties.end[own])]]]
 
 
-def _hung(state: Natural, alignment: Alignment, wire: int) -> tuple[FloatArray, FloatArray]:
-    """Return chainages and heights of the points from which a wire hangs [m].
+def _hung(state: Natural, wire: int) -> FloatArray:
+    """Return the material coordinates at which a wire hangs [m].
 
-    These are its supports, and droppers that hold it; the ends of a wire that has no supports.
+    These are at its supports, and at droppers that hold it; its ends if it has no supports.
     """
     model, layout = state.model, state.model.layout
     s = [
@@ -90,7 +91,4 @@ def _hung(state: Natural, alignment: Alignment, wire: int) -> tuple[FloatArray, 
     ]
     if layout.wires[wire].tied:
         s.append(state.wires[wire].knots[[0, -1]])
-    hung = np.sort(np.concatenate(s))
-    r = state.wires[wire].evaluate(state.z, hung).r
-    frames = alignment.frames(alignment.locate(r, np.interp(hung, *state.stations(wire))))
-    return frames.chainage, frames.height(r)
+    return np.sort(np.concatenate(s))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import cache
 from itertools import pairwise
 from pathlib import Path
 from typing import Annotated, Final, Generic, Literal, TypeVar
@@ -146,4 +147,10 @@ def load_rules(file: str | Path | None = None) -> Rules:
     LineFileError
         With one fault for each thing that is wrong.
     """
-    return load_model(STANDARD if file is None else file, Rules)
+    return _standard() if file is None else load_model(file, Rules)
+
+
+@cache
+def _standard() -> Rules:
+    """Return the rules of catenaria, which do not change: reading them takes as long as judging by them."""
+    return load_model(STANDARD, Rules)

@@ -141,21 +141,36 @@ def _customdata(extra: Sequence[FloatArray]) -> Trace:
 
 
 def bars(
-    x: FloatArray, low: FloatArray, high: FloatArray, name: str, of: str, *, legend: bool = True
+    x: FloatArray,
+    low: FloatArray,
+    high: FloatArray,
+    name: str,
+    of: str,
+    texts: Sequence[str] = (),
+    hover: str = "",
+    *,
+    extra: Sequence[FloatArray] = (),
+    size: int = 0,
+    legend: bool = True,
 ) -> Trace:
-    """Return upright lines, all in one trace."""
+    """Return upright lines, all in one trace, with marks of a size at their ends and `texts` as of points."""
     gap = np.full(x.size, np.nan)
-    return {
+    trace: Trace = {
         "type": "scatter",
-        "mode": "lines",
+        "mode": "lines+markers" if size else "lines",
         "name": plain(name),
         "legendgroup": plain(name),
         "showlegend": legend,
         "x": numbers(np.column_stack((x, x, gap)).ravel(), 3),
         "y": numbers(np.column_stack((low, high, gap)).ravel(), 5),
         "line": {"color": of, "width": 1.3},
-        "hoverinfo": "skip",
     }
+    if size:
+        trace["marker"] = {"color": of, "size": size}
+    if not texts:
+        return trace | {"hoverinfo": "skip"}
+    said = {"text": [text for text in texts for _ in range(3)], "hovertemplate": f"{hover}<extra></extra>"}
+    return trace | said | _customdata([np.repeat(values, 3) for values in extra])
 
 
 def layout(

@@ -86,10 +86,10 @@ def plan_figures(result: FormResult, most: float = MOST, intervals: int = INTERV
     return list(_in_windows(result, "plan", "Lateral offsets of all wires", "to the left [m]", draw, most))
 
 
-def tension_figures(result: FormResult) -> list[Drawing]:
-    """Draw the tension along every wire that supports hold."""
+def tension_figures(result: FormResult, intervals: int = 1500) -> list[Drawing]:
+    """Draw the tension along every wire that supports hold, the peaks of as many `intervals`."""
     wires = [wire for wire in result.wires if wire.name in result.supports.wire]
-    return [_tension(result, wire, number) for number, wire in enumerate(wires, start=1)]
+    return [_tension(result, wire, number, intervals) for number, wire in enumerate(wires, start=1)]
 
 
 def with_margins(extent: tuple[float, float]) -> tuple[float, float]:
@@ -212,9 +212,9 @@ def _band(window: Window, half: float) -> list[Trace]:
     return [low | silent, high | silent | {"fill": "tonexty", "fillcolor": colour("band")}]
 
 
-def _tension(result: FormResult, wire: WireForm, number: int) -> Drawing:
+def _tension(result: FormResult, wire: WireForm, number: int, intervals: int) -> Drawing:
     profile, wanted = wire.profile, wire.target_tension
-    kept = thinned(profile.chainage, (profile.tension, profile.moment), most=1500)
+    kept = thinned(profile.chainage, (profile.tension, profile.moment), intervals)
     x, tension = profile.chainage[kept], profile.tension[kept]
     hover = (
         "chainage %{x:.2f} m<br>tension %{y:.1f} N<br>height %{customdata[0]:.4f} m<br>"

@@ -16,6 +16,8 @@ FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.intp]
 
 
+_MARK = 5  # size of marks [px]
+_MOST_MARKED = 100  # droppers in one figure: marks of more touch each other, and take half of its time
 _DROPPER = (
     "<b>%{text}</b><br>chainage %{x:.2f} m<br>length %{customdata[0]:.4f} m, "
     "cut to %{customdata[1]:.4f} m<br>force below %{customdata[2]:.1f} N, above %{customdata[3]:.1f} N<br>"
@@ -24,14 +26,14 @@ _DROPPER = (
 
 
 def dropper_traces(result: FormResult, window: Window) -> list[Trace]:
-    """Draw droppers from wire to wire with marks at their ends, and mark those that are slack."""
+    """Draw droppers from wire to wire, with marks at their ends unless they are many, and those slack."""
     droppers = result.droppers
     here = np.flatnonzero(window.mask(droppers.x))
     x, low, high = droppers.x[here], droppers.height[here], droppers.messenger_height[here]
-    green, ends = colour("dropper"), np.concatenate((low, high))
+    names, said = _said(result, here)
+    size = _MARK if here.size <= _MOST_MARKED else 0
     traces = [
-        drawing.bars(x, low, high, "dropper", green),
-        dropper_points(result, np.tile(here, 2), ends, "dropper", green, legend=False),
+        drawing.bars(x, low, high, "dropper", colour("dropper"), names, _DROPPER, extra=said, size=size)
     ]
     slack = droppers.slack[here]
     if slack.any():
@@ -48,17 +50,20 @@ def dropper_points(
     of: str,
     *,
     symbol: str = "circle",
-    size: int = 5,
-    legend: bool = True,
+    size: int = _MARK,
 ) -> Trace:
     """Return a point for each of some droppers, with its lengths, forces and heights."""
+    names, said = _said(result, here)
+    x = result.droppers.x[here]
+    return drawing.points(x, y, name, of, names, _DROPPER, extra=said, symbol=symbol, size=size)
+
+
+def _said(result: FormResult, here: IntArray) -> tuple[list[str], list[FloatArray]]:
+    """Return the names of some droppers, and the numbers in `_DROPPER`."""
     d, names = result.droppers, dropper_names(result)
-    places: list[int] = here.tolist()
     said = (d.length, d.cut_length, d.force_bottom, d.force_top, d.height, d.target_height)
-    return drawing.points(
-        d.x[here], y, name, of, [names[i] for i in places], _DROPPER,
-        extra=[values[here] for values in said], symbol=symbol, size=size, legend=legend,
-    )  # fmt: skip
+    places: list[int] = here.tolist()
+    return [names[i] for i in places], [values[here] for values in said]
 
 
 def mass_traces(result: FormResult, window: Window) -> list[Trace]:

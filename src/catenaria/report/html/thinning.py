@@ -35,9 +35,14 @@ def thinned(x: FloatArray, values: tuple[FloatArray, ...], most: int = INTERVALS
         return np.arange(x.size)
     edges: FloatArray = np.linspace(float(x.min()), float(x.max()), most + 1)
     interval = np.clip(np.searchsorted(edges, x, side="right") - 1, 0, most - 1)
-    kept = {0, x.size - 1}
+    order = np.argsort(interval, kind="stable")
+    starts = np.flatnonzero(np.diff(interval[order], prepend=-1))
+    length = np.diff(starts, append=x.size)
+    kept = [np.array([0, x.size - 1])]
     for y in (x, *values):
-        order = np.lexsort((y, interval))
-        starts = np.flatnonzero(np.diff(interval[order], prepend=-1))
-        kept.update(order[starts].tolist(), order[np.append(starts[1:], x.size) - 1].tolist())
-    return np.array(sorted(kept), dtype=np.intp)
+        sorted_y = y[order]
+        for extreme in (np.minimum, np.maximum):
+            peaks = np.flatnonzero(sorted_y == np.repeat(extreme.reduceat(sorted_y, starts), length))
+            _, first = np.unique(interval[order[peaks]], return_index=True)
+            kept.append(order[peaks[first]])
+    return np.unique(np.concatenate(kept))
