@@ -143,7 +143,7 @@ class FreeWire(FreeBody):
     def mean_tension(self) -> FloatArray:
         """The mean over each element of the true axial force EA eps |r'| [N]."""
         _, weights = clenshaw_curtis(INTERVALS)
-        size = np.linalg.norm(self.curve.slopes, axis=2)
+        size = self.curve.stretch
         return (0.5 * self.stated.conductor.EA * (size**2 - 1.0) * size) @ weights
 
     def position(self, s: FloatArray) -> FloatArray:
@@ -153,7 +153,7 @@ class FreeWire(FreeBody):
     def strain_tension(self, s: FloatArray) -> FloatArray:
         """Return N = EA eps of eq. (11) at material coordinates [N]."""
         r1 = self.curve.at(s).r1
-        return 0.5 * self.stated.conductor.EA * (np.sum(r1 * r1, axis=1) - 1.0)
+        return 0.5 * self.stated.conductor.EA * (np.einsum("ni,ni->n", r1, r1) - 1.0)
 
 
 @dataclass(frozen=True)

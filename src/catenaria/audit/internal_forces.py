@@ -30,7 +30,7 @@ def profile_checks(wire: FreeWire, at: Points, along: FloatArray) -> Iterator[Ch
         Direction of the track there.
     """
     shape, kind = wire.form.profile, wire.stated.conductor
-    s, size = shape.s, np.linalg.norm(at.r1, axis=1)
+    s, size = shape.s, np.sqrt(np.einsum("ni,ni->n", at.r1, at.r1))
     middle = 0.5 * (wire.curve.s[:-1] + wire.curve.s[1:])
     tension = np.interp(s, middle, wire.mean_tension)
     after = kind.EJ * _curvature(at)
@@ -46,7 +46,7 @@ def profile_checks(wire: FreeWire, at: Points, along: FloatArray) -> Iterator[Ch
             "profile, horizontal component",
             "N",
             shape.horizontal,
-            tension * np.sum(at.r1 * along, axis=1) / size,
+            tension * np.einsum("ni,ni->n", at.r1, np.broadcast_to(along, at.r1.shape)) / size,
         ),
         ("profile, bending moment", "N m", shape.moment, moment),
     ):
@@ -64,4 +64,6 @@ def support_check(wire: FreeWire, supports: Supports) -> Check:
 
 def _curvature(at: Points) -> FloatArray:
     """Return kappa of eq. (10) [1/m]; it jumps at nodes, where anything between both sides will do."""
-    return np.linalg.norm(np.cross(at.r1, at.r2), axis=1) / np.linalg.norm(at.r1, axis=1) ** 3
+    (x, y, z), (u, v, w) = at.r1.T, at.r2.T
+    cross = (y * w - z * v) ** 2 + (z * u - x * w) ** 2 + (x * v - y * u) ** 2
+    return np.sqrt(cross / (x * x + y * y + z * z) ** 3)

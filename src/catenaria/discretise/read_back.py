@@ -10,6 +10,7 @@ from catenaria.line.alignment import Frames
 from catenaria.mechanics.chain import Chain, Points
 from catenaria.mechanics.controls.control import Controls as ControlBatch
 from catenaria.numerics.gauss import gauss_legendre
+from catenaria.numerics.vectors import cross_sizes, sizes
 from catenaria.results.form import Profile, Stage, WireForm
 
 FloatArray = NDArray[np.float64]
@@ -46,7 +47,7 @@ def profile(chain: Chain, z: FloatArray, frames: Frames | None = None) -> Profil
     """
     s = samples(chain)
     point = chain.evaluate(z, s)
-    size = np.linalg.norm(point.r1, axis=1)
+    size = sizes(point.r1)
     N = chain.section.EA * 0.5 * (size**2 - 1.0)
     kappa = _curvature(point)
     before = _curvature(chain.evaluate(z, chain.knots, _element_before(chain)))
@@ -63,7 +64,7 @@ def profile(chain: Chain, z: FloatArray, frames: Frames | None = None) -> Profil
 
 def _curvature(point: Points) -> FloatArray:
     """Return kappa of eq. (10) [1/m]."""
-    return np.linalg.norm(np.cross(point.r1, point.r2), axis=1) / np.linalg.norm(point.r1, axis=1) ** 3
+    return cross_sizes(point.r1, point.r2) / sizes(point.r1) ** 3
 
 
 def _element_before(chain: Chain) -> IntArray:
@@ -75,7 +76,7 @@ def element_tension(chain: Chain, z: FloatArray) -> FloatArray:
     """Return the mean of the true axial force EA eps |r'| over each element [N]."""
     points, weights = gauss_legendre(5)
     s = chain.knots[:-1, None] + 0.5 * chain.L[:, None] * (points + 1.0)
-    size = np.linalg.norm(chain.evaluate(z, s.ravel()).r1, axis=1)
+    size = sizes(chain.evaluate(z, s.ravel()).r1)
     force = chain.section.EA * 0.5 * (size**2 - 1.0) * size
     return 0.5 * (force.reshape(s.shape) @ weights)
 
@@ -88,7 +89,7 @@ def stretched_length(chain: Chain, z: FloatArray, start: float, end: float) -> f
     )
     half = 0.5 * np.diff(knots)[:, None]
     s = (knots[:-1, None] + half * (points + 1.0)).ravel()
-    size = np.linalg.norm(chain.evaluate(z, s).r1, axis=1)
+    size = sizes(chain.evaluate(z, s).r1)
     return float(np.sum(size.reshape(half.shape[0], -1) * weights * half))
 
 
