@@ -37,7 +37,7 @@ def test_points_of_a_chain_follow_the_shape_functions(dtype: type) -> None:
 
 def test_compressed_columns_are_those_of_scipy() -> None:
     rng = np.random.default_rng(6)
-    rows, columns = rng.integers(0, 50, (2, 900))
+    rows, columns = rng.integers(0, 50, (2, 900), dtype=np.int32)
     values = rng.normal(size=900)
     place, indices, indptr = compress(rows, columns, 50)
     data = np.bincount(place, values, indices.size)
@@ -50,6 +50,6 @@ def test_compressed_columns_are_those_of_scipy() -> None:
 
 
 def test_columns_without_entries_are_empty() -> None:
-    _, indices, indptr = compress(np.array([2, 0]), np.array([1, 3]), 5)
+    _, indices, indptr = compress(np.array([2, 0], np.int32), np.array([1, 3], np.int32), 5)
     np.testing.assert_array_equal(indices, [2, 0])
     np.testing.assert_array_equal(indptr, [0, 0, 1, 1, 2, 2])

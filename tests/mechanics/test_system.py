@@ -125,7 +125,7 @@ def test_sparsity_pattern(seed: int) -> None:
     """Repeated entries share a place, columns are sorted by row, empty columns stay empty."""
     rng = np.random.default_rng(seed)
     rows, columns = rng.integers(0, 9, 40), rng.choice([0, 1, 3, 4, 8], 40)
-    pattern = SparsityPattern.of(rows, columns, 9)
+    pattern = SparsityPattern.of(rows.astype(np.int32), columns.astype(np.int32), 9)
     entries = set(zip(columns.tolist(), rows.tolist(), strict=True))
     assert pattern.indices.size == len(entries)
     assert pattern.indptr.shape == (10,)

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from catenaria.mechanics.contribution import Contribution
-from catenaria.mechanics.kernels.compress import compress, merge
+from catenaria.mechanics.kernels.compress import Int32Array, compress, merge
 from catenaria.mechanics.kernels.scatter import sum_into
 
 FloatArray = NDArray[np.float64]
@@ -28,16 +28,16 @@ class SparsityPattern:
     ----------
     place : IntArray, shape (m,)
         Position in `data` of each contributed entry.
-    indices, indptr : NDArray[np.int32]
+    indices, indptr : Int32Array
         Row indices and column pointers of the matrix.
     """
 
     place: IntArray
-    indices: NDArray[np.int32]
-    indptr: NDArray[np.int32]
+    indices: Int32Array
+    indptr: Int32Array
 
     @classmethod
-    def of(cls, rows: IntArray, columns: IntArray, size: int) -> SparsityPattern:
+    def of(cls, rows: Int32Array, columns: Int32Array, size: int) -> SparsityPattern:
         """Sort the entries by column and row and give equal ones the same place."""
         return cls(*compress(rows, columns, size))
 
@@ -45,9 +45,9 @@ class SparsityPattern:
     def of_parts(cls, parts: Sequence[Contribution], size: int) -> SparsityPattern:
         """Return the pattern of several contributions' entries, one after the other."""
         patterns = [part.pattern() for part in parts]
-        none = np.empty(0, dtype=np.int64)
-        rows = np.concatenate([none, *(rows for rows, _ in patterns)])
-        columns = np.concatenate([none, *(columns for _, columns in patterns)])
+        none = np.empty(0, dtype=np.int32)
+        rows = np.concatenate([none, *(rows for rows, _ in patterns)], dtype=np.int32)
+        columns = np.concatenate([none, *(columns for _, columns in patterns)], dtype=np.int32)
         return cls.of(rows, columns, size)
 
     def data(self, entries: Sequence[FloatArray]) -> FloatArray:
@@ -61,14 +61,14 @@ class MergedPattern:
 
     Attributes
     ----------
-    indices, indptr : NDArray[np.int32]
+    indices, indptr : Int32Array
         Row indices and column pointers of the union.
     first, second : IntArray
         Position in the union of each entry of either pattern.
     """
 
-    indices: NDArray[np.int32]
-    indptr: NDArray[np.int32]
+    indices: Int32Array
+    indptr: Int32Array
     first: IntArray
     second: IntArray
 

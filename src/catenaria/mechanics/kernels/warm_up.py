@@ -47,6 +47,6 @@ def warm_up() -> None:
     first = np.zeros(1, dtype=np.int64)
     elements_of(np.array([0.0, 1.0]), 0.5 * one, first, 0.0)
     chain_points(z, dofs.reshape(2, 6), np.array([0.0, 1.0]), 0.5 * one, first)
-    _, indices, indptr = compress(first, first, 1)
+    _, indices, indptr = compress(first.astype(np.int32), first.astype(np.int32), 1)
     merge(indices, indptr, indices, indptr)
     sum_into(one, first, 1)
