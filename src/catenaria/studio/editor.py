@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Any, Final
 
-from nicegui import ui
+from nicegui import events, ui
 
 from catenaria.errors import Fault, InconsistentInputError
 from catenaria.studio.documents import Tree
@@ -134,12 +135,14 @@ class Editor:
         if field.hint:
             element.props(f'placeholder="{field.hint}"')
         element.mark(field.name)
-        element.on("change", lambda: self._enter(field, element))
+        element.on("change", partial(self._enter, field, element))
         self._inputs.append((field, element))
         return element
 
-    def _enter(self, field: Field, element: Any) -> None:
-        tree, text = self._session.document.tree, str(element.value or "")
+    def _enter(self, field: Field, element: Any, event: events.GenericEventArguments) -> None:
+        tree = self._session.document.tree
+        # What was typed comes with the event: the element may not have been told yet.
+        text = event.args if isinstance(event.args, str) else str(element.value or "")
         if len(text) > MOST_TYPED:
             ui.notify(f"{_named(field)}: {MOST_TYPED} characters at most", type="negative")
         else:

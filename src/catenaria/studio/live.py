@@ -43,10 +43,8 @@ class LiveFigure(ui.plotly):
         self.on("plotly_afterplot", self._note, args=[])
 
     def keep(self, figure: Figure) -> object:
-        """Keep a figure for browsers that make the page anew; return what the others are sent."""
+        """Keep a figure for whenever the element is made anew; return what is sent until then."""
         self.figure = figure
-        with self.props.suspend_updates():
-            self.props["options"] = figure
         return figure
 
     def _note(self) -> None:
@@ -56,15 +54,21 @@ class LiveFigure(ui.plotly):
 class _Own(ui.element):
     """An element with a component of ours, which has the contents and a method to show others."""
 
-    def __init__(self, content: Any) -> None:
+    def __init__(self, content: object) -> None:
+        self._content = content
         super().__init__()
         self.drawn = False
-        self.props["content"] = content
         self.on("drawn", self._note, args=[])
+        self.update()
+
+    def update(self) -> None:
+        """Send the element with what it shows now."""
+        with self.props.suspend_updates():
+            self.props["content"] = self._content
+        super().update()
 
     def _kept(self, content: object) -> object:
-        with self.props.suspend_updates():
-            self.props["content"] = content
+        self._content = content
         return content
 
     def _note(self) -> None:
@@ -82,7 +86,7 @@ class LiveTable(_Own, component="live_table.js"):
         self.classes("listing")
 
     def keep(self, table: Shown) -> object:
-        """Keep a table for browsers that make the page anew; return what the others are sent."""
+        """Keep a table for whenever the element is made anew; return what is sent until then."""
         self._table = table
         return self._kept(asdict(table))
 
@@ -103,7 +107,7 @@ class LiveText(_Own, component="live_text.js"):
         self.classes(f"lines {said.classes}")
 
     def keep(self, said: Said) -> object:
-        """Keep a text for browsers that make the page anew; return what the others are sent."""
+        """Keep a text for whenever the element is made anew; return what is sent until then."""
         self._said = said
         return self._kept(said.text)
 
