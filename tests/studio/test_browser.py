@@ -167,6 +167,10 @@ def test_the_replay_reaches_the_form(visit: Visit) -> None:
     expect(page.locator(".panel .js-plotly-plot .main-svg").first).to_be_visible(timeout=120_000)
     expect(page.get_by_text(re.compile(r"contact wire, [\d.]+ s ·"))).to_be_visible()  # it plays by itself
     expect(page.get_by_text("messenger wire, ")).to_be_visible(timeout=120_000)
+    page.get_by_label("play", exact=True).click()  # what it says stands still then
+    slider = page.locator(".slider").bounding_box()
+    assert slider is not None
+    page.mouse.click(slider["x"] + slider["width"] - 1, slider["y"] + slider["height"] / 2)
     expect(page.get_by_text("dropper force error 0.0")).to_be_visible(timeout=120_000)
     visit.enter("speed", "200")
     expect(page.get_by_text("The line is another one: its motion is not computed yet.")).to_be_visible()
@@ -246,6 +250,78 @@ def test_a_file_is_edited_as_text_and_keeps_what_was_written(visit: Visit, tmp_p
     assert taken == mine.edited(replaced(mine.tree, ("spans", 2, "length"), "64.5 m")).text
     assert set(taken.splitlines()) > set(text.splitlines()) - {"  - *span"}
     assert asked <= {"127.0.0.1"}
+
+
+COUNT = """() => {
+  window.counted = 0;
+  window.socket.prependAny((kind) => { if (kind === "update") window.counted += 1; });
+}"""
+HIGHEST = """plot => Math.max(...plot._fullData.map(trace => Math.max(...trace.y.filter(Number.isFinite))))"""
+
+
+def test_an_edit_changes_what_is_shown_and_nothing_else(visit: Visit) -> None:
+    page, field = visit.page, "supports[1].messenger_wire.height"
+    figure = page.locator(".js-plotly-plot").first
+    expect(figure.locator(".main-svg").first).to_be_visible()
+    heights = [figure.evaluate(HIGHEST)]
+    for height in ("1.6", "1.7"):
+        visit.enter(field, height)
+        page.wait_for_function(
+            f"({HIGHEST})(document.querySelector('.js-plotly-plot')) > {heights[-1]} + 0.05"
+        )
+        heights.append(figure.evaluate(HIGHEST))
+        if height == "1.6":
+            visit.solved()
+            page.evaluate(COUNT)  # from now on: the first edit also enables the button that takes it back
+    visit.solved()
+    assert heights[2] == pytest.approx(1.7, abs=1e-3)
+    assert page.evaluate("window.counted") == 0
+    visit.enter("spans[0].length", "long")  # a fault does render the page anew, and is counted
+    expect(page.get_by_text('found "long"')).to_be_visible()
+    assert page.evaluate("window.counted") > 0
+
+
+@pytest.mark.parametrize(
+    ("tab", "cell"),
+    [
+        ("Droppers", ".listing td:nth-child(4)"),
+        ("Supports", ".listing tr:has-text('messenger wire') td:nth-child(2)"),
+        ("Checks", ".listing tr:has-text('shortest dropper') td:nth-child(3)"),
+        ("Compare", ".words"),
+    ],
+)
+def test_tables_follow_edits_and_undo(visit: Visit, tab: str, cell: str) -> None:
+    page = visit.page
+    visit.enter("messenger_wire.tension.force", "15.5")
+    visit.solved()
+    visit.tab(tab)
+    shown = page.locator(f".panel {cell}").first
+    page.wait_for_timeout(300)
+    before = shown.text_content() or ""
+    page.evaluate(COUNT)
+    visit.enter("messenger_wire.tension.force", "18")
+    expect(shown).not_to_have_text(before)
+    after = shown.text_content() or ""
+    assert page.evaluate("window.counted") == 0
+    visit.tab("Form")
+    visit.tab(tab)  # made anew, from what came by messages
+    expect(shown).to_have_text(after)
+    if tab != "Compare":
+        page.get_by_label("undo", exact=True).click()
+        expect(shown).to_have_text(before)
+
+
+def test_what_comes_with_its_change_at_once_counts(visit: Visit) -> None:
+    """As browsers do that fill fields in by themselves."""
+    fill = """([field, text]) => {
+      const input = document.querySelector(field);
+      Object.getOwnPropertyDescriptor(HTMLInputElement.prototype, "value").set.call(input, text);
+      for (const kind of ["input", "change"]) input.dispatchEvent(new Event(kind, { bubbles: true }));
+    }"""
+    field = '[data-field="spans[1].length"]'
+    visit.page.evaluate(fill, [field, "64.5 m"])
+    expect(visit.page.locator(field)).to_have_value("64.5")  # read, and shown as it is kept
+    visit.solved()
 
 
 def test_two_people_do_not_see_each_other(visit: Visit, browser: Browser, url: str) -> None:

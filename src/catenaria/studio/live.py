@@ -104,7 +104,7 @@ class LiveText(_Own, component="live_text.js"):
     def __init__(self, said: Said) -> None:
         super().__init__(said.text)
         self._said = said
-        self.classes(f"lines {said.classes}")
+        self.classes(f"words {said.classes}")
 
     def keep(self, said: Said) -> object:
         """Keep a text for whenever the element is made anew; return what is sent until then."""
