@@ -235,7 +235,10 @@ def test_a_cluster_of_two_workers(scheduler: str, start: Start, lines: Folder, t
     assert solve_many([folder], out, scheduler=scheduler).reused == 11
 
 
-def test_a_cluster_without_workers_is_refused(scheduler: str, lines: Folder, tmp_path: Path) -> None:
+def test_a_cluster_without_workers_is_refused(
+    scheduler: str, lines: Folder, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(cluster, "CONNECT", 2.0)
     with pytest.raises(InconsistentInputError, match=r"has no workers\. Try: dask worker tcp://"):
         solve_many([lines(1)], tmp_path / "out", scheduler=scheduler)
     assert list((tmp_path / "out").iterdir()) == []
