@@ -100,6 +100,13 @@ class Visit:
             self.page.get_by_text(label, exact=True).click()
         return download.value
 
+    def wind_on(self) -> None:
+        """Stop a film that plays, and go to its end."""
+        self.page.get_by_label("play", exact=True).click()
+        slider = self.page.locator(".slider").bounding_box()
+        assert slider is not None
+        self.page.mouse.click(slider["x"] + slider["width"] - 1, slider["y"] + slider["height"] / 2)
+
     def close(self) -> None:
         self.page.context.close()
 
@@ -167,10 +174,7 @@ def test_the_replay_reaches_the_form(visit: Visit) -> None:
     expect(page.locator(".panel .js-plotly-plot .main-svg").first).to_be_visible(timeout=120_000)
     expect(page.get_by_text(re.compile(r"contact wire, [\d.]+ s ·"))).to_be_visible()  # it plays by itself
     expect(page.get_by_text("messenger wire, ")).to_be_visible(timeout=120_000)
-    page.get_by_label("play", exact=True).click()  # what it says stands still then
-    slider = page.locator(".slider").bounding_box()
-    assert slider is not None
-    page.mouse.click(slider["x"] + slider["width"] - 1, slider["y"] + slider["height"] / 2)
+    visit.wind_on()
     expect(page.get_by_text("dropper force error 0.0")).to_be_visible(timeout=120_000)
     visit.enter("speed", "200")
     expect(page.get_by_text("The line is another one: its motion is not computed yet.")).to_be_visible()
@@ -192,6 +196,7 @@ def test_a_line_in_space_is_replayed(visit: Visit, tmp_path: Path) -> None:
         timeout=60_000
     )
     expect(page.locator(".panel .js-plotly-plot .main-svg:first-child")).to_have_count(3)
+    visit.wind_on()
     expect(page.get_by_text("· at rest")).to_be_visible(timeout=60_000)
 
 

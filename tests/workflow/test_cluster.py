@@ -15,6 +15,7 @@ import psutil
 import pytest
 
 from catenaria.errors import InconsistentInputError, NotConvergedError, UnsupportedError
+from catenaria.workflow import cluster
 from catenaria.workflow.cluster import Cluster, Failed, local_cluster, remote_cluster
 
 pytestmark = pytest.mark.slow
