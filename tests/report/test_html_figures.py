@@ -14,6 +14,7 @@ from catenaria.line import Line
 from catenaria.report.html import figures
 from catenaria.report.html.drawing import Drawing, layout
 from catenaria.report.html.sketch import sketch
+from catenaria.report.html.thinning import simplified
 from catenaria.report.html.windows import windows
 from catenaria.results import FormResult
 
@@ -192,3 +193,24 @@ def test_sketch_of_every_span(solved: Callable[[str], FormResult]) -> None:
             row.masts[0].name == before.masts[-1].name
             for before, row in zip(drawn.rows, drawn.rows[1:], strict=False)
         )
+
+
+@pytest.mark.parametrize("tolerance", [1e-2, 1e-3, 1e-4])
+def test_lines_of_fewer_points_are_off_by_the_tolerance_at_most(curve: FormResult, tolerance: float) -> None:
+    profile = curve.wires[1].profile
+    x, y = profile.chainage, profile.height
+    kept = simplified(x, y, tolerance, least=10)
+    among = np.unique(np.append(np.arange(0, x.size, max(x.size // 1200, 1)), x.size - 1))
+    off = np.abs(np.interp(x[among], x[kept], y[kept]) - y[among]).max()
+    assert off <= tolerance
+    assert kept[0] == 0
+    assert kept[-1] == x.size - 1
+    coarse = simplified(x, y, 100.0 * tolerance, least=10)
+    assert coarse.size < kept.size
+    assert np.abs(np.interp(x[among], x[coarse], y[coarse]) - y[among]).max() > tolerance
+
+
+def test_level_lines_have_points_to_point_at() -> None:
+    x = np.linspace(0.0, 1.0, 5000)
+    assert simplified(x, np.zeros(5000), 1e-3, least=30).size == 30
+    assert simplified(x[:2], x[:2], 1e-3).tolist() == [0, 1]

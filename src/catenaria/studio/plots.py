@@ -17,7 +17,7 @@ from catenaria.report.html.figures import (
     support_places,
     tension_figures,
 )
-from catenaria.report.html.thinning import thinned
+from catenaria.report.html.thinning import simplified
 from catenaria.results import FormResult
 from catenaria.studio.compare import Differences, differences
 from catenaria.studio.palette import coloured
@@ -25,7 +25,8 @@ from catenaria.studio.palette import coloured
 Figure = dict[str, Any]
 
 _NUMBERS: Final = {"x": "f8", "y": "f4", "customdata": "f4"}  # chainages have more digits
-_MOST: Final = 100  # intervals of lines that are drawn anew after every edit
+_OFF: Final = 1e-3  # m that lines which are drawn anew after every edit may be off: a tenth of a pixel
+_PART: Final = 2e-3  # by which they may be off, of the range of what they show
 
 # Not "responsive": figures in a tab that is being closed would be resized, which Plotly refuses. No list of
 # all buttons either: Plotly puts objects into it, with which NiceGUI's comparison of settings does not end.
@@ -63,19 +64,19 @@ def _bytes(values: list[Any], kind: str) -> dict[str, str]:
 
 def profile_plot(result: FormResult, variant: FormResult | None, dark: bool) -> Figure:
     """Draw the heights of all wires, and of a variant behind them."""
-    (one,) = profile_figures(result, math.inf, _MOST)
+    (one,) = profile_figures(result, math.inf, _OFF)
     return as_figure(_over(one, variant, "height"), dark)
 
 
 def plan_plot(result: FormResult, variant: FormResult | None, dark: bool) -> Figure | None:
     """Draw the lateral offsets of all wires, and of a variant; nothing for lines in a plane."""
-    drawings = plan_figures(result, math.inf, _MOST)
+    drawings = plan_figures(result, math.inf, _OFF)
     return as_figure(_over(drawings[0], variant, "lateral"), dark) if drawings else None
 
 
 def tension_plots(result: FormResult, dark: bool) -> list[Figure]:
     """Draw the tension along every wire that supports hold."""
-    return [as_figure(one, dark) for one in tension_figures(result, _MOST)]
+    return [as_figure(one, dark) for one in tension_figures(result, _PART)]
 
 
 def difference_plots(result: FormResult, variant: FormResult, dark: bool) -> list[Figure]:
@@ -87,7 +88,7 @@ def difference_plots(result: FormResult, variant: FormResult, dark: bool) -> lis
     stems = drawing.bars(
         found.x, np.zeros(found.x.size), found.cut_length, "droppers", colour("dropper"), legend=False
     )
-    kept = thinned(found.chainage, (found.height,), _MOST)
+    kept = simplified(found.chainage, found.height, _PART * float(np.ptp(found.height)))
     height = drawing.line(
         found.chainage[kept],
         found.height[kept],
@@ -123,7 +124,7 @@ def _over(one: Drawing, variant: FormResult | None, across: str) -> Drawing:
     behind: list[Trace] = []
     for wire in variant.wires:
         x, y = wire.profile.chainage, getattr(wire.profile, across)
-        kept = thinned(x, (y,), _MOST)
+        kept = simplified(x, y, _OFF)
         hover = "chainage %{x:.2f} m<br>%{y:.4f} m"
         trace = drawing.line(
             x[kept],

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from catenaria.report.html import drawing
 from catenaria.report.html.drawing import Drawing, Trace, colour, wire_colour
 from catenaria.report.html.marks import arm_traces, dropper_points, dropper_traces, mass_traces
-from catenaria.report.html.thinning import INTERVALS, thinned
+from catenaria.report.html.thinning import INTERVALS, simplified, thinned
 from catenaria.report.html.windows import MOST, Window, extent, support_places, windows
 from catenaria.results import FormResult, Profile, WireForm
 
@@ -31,16 +31,17 @@ _HEIGHT = 320
 _MARGIN = 0.012  # of a figure's width on either side, for marks and names at its edges
 _IN_PLANE = 1e-6  # m
 _THIN, _THICK = 1.8, 4.0  # width of lines [px]
-_FEWEST = 8  # intervals of a short wire
+_FEWEST = 8  # intervals or points of a short wire
+_LEAST = 100  # points of a wire as long as the figure
 _ONCE = ("stitch wire", "mid-point anchor")  # roles of which there are many wires: one trace for all
 
 
-def profile_figures(result: FormResult, most: float = MOST, intervals: int = INTERVALS) -> list[Drawing]:
+def profile_figures(result: FormResult, most: float = MOST, tolerance: float | None = None) -> list[Drawing]:
     """Draw the heights of all wires with their droppers, seen from the side, `most` metres in one figure.
 
-    Of every one of as many `intervals`, only the peaks are drawn.
+    Points that straight lines between the others meet within a tolerance [m], if there is one, are left out.
     """
-    height = _Across(lambda profile: profile.height, intervals)
+    height = _Across(lambda profile: profile.height, tolerance)
 
     def draw(window: Window) -> list[Trace]:
         wires = _wires(result.wires, window, height)
@@ -59,7 +60,7 @@ def height_figures(result: FormResult, tolerance: float | None) -> list[Drawing]
     return list(_in_windows(result, "heights", title, "above wanted [mm]", draw, MOST))
 
 
-def plan_figures(result: FormResult, most: float = MOST, intervals: int = INTERVALS) -> list[Drawing]:
+def plan_figures(result: FormResult, most: float = MOST, tolerance: float | None = None) -> list[Drawing]:
     """Draw the lateral offsets of all wires with arms, seen from above; nothing if all lie in one plane.
 
     Notes
@@ -68,7 +69,7 @@ def plan_figures(result: FormResult, most: float = MOST, intervals: int = INTERV
     """
     if all(float(np.abs(wire.profile.lateral).max()) < _IN_PLANE for wire in result.wires):
         return []
-    lateral = _Across(lambda profile: profile.lateral, intervals)
+    lateral = _Across(lambda profile: profile.lateral, tolerance)
 
     def draw(window: Window) -> list[Trace]:
         axis = drawing.line(
@@ -86,10 +87,10 @@ def plan_figures(result: FormResult, most: float = MOST, intervals: int = INTERV
     return list(_in_windows(result, "plan", "Lateral offsets of all wires", "to the left [m]", draw, most))
 
 
-def tension_figures(result: FormResult, intervals: int = 1500) -> list[Drawing]:
-    """Draw the tension along every wire that supports hold, the peaks of as many `intervals`."""
+def tension_figures(result: FormResult, tolerance: float | None = None) -> list[Drawing]:
+    """Draw the tension along every wire that supports hold; the tolerance is a part of its range."""
     wires = [wire for wire in result.wires if wire.name in result.supports.wire]
-    return [_tension(result, wire, number, intervals) for number, wire in enumerate(wires, start=1)]
+    return [_tension(result, wire, number, tolerance) for number, wire in enumerate(wires, start=1)]
 
 
 def with_margins(extent: tuple[float, float]) -> tuple[float, float]:
@@ -127,10 +128,10 @@ def _reach(traces: list[Trace]) -> tuple[float, float]:
 
 @dataclass(frozen=True)
 class _Across:
-    """What of a wire is drawn over the chainage, and in how many intervals of a figure."""
+    """What of a wire is drawn over the chainage, and how far what is drawn may be off it, if at all."""
 
     of: Callable[[Profile], FloatArray]
-    intervals: int
+    tolerance: float | None
 
     def points(self, wire: WireForm, window: Window) -> FloatArray:
         """Return chainage, what is drawn, and what is said of each point, and a gap behind the last one."""
@@ -140,8 +141,10 @@ class _Across:
             return np.empty((5, 0))
         x, y = profile.chainage[here], self.of(profile)[here]
         share = float(np.ptp(x)) / (window.extent[1] - window.extent[0])
-        most = max(round(share * self.intervals), _FEWEST)
-        here = here[thinned(x, (y, profile.tension[here]), most)]
+        if self.tolerance is None:
+            here = here[thinned(x, (y, profile.tension[here]), max(round(share * INTERVALS), _FEWEST))]
+        else:
+            here = here[simplified(x, y, self.tolerance, max(round(share * _LEAST), _FEWEST))]
         said = (profile.height[here], 1e3 * profile.lateral[here], profile.tension[here])
         drawn = np.stack((profile.chainage[here], self.of(profile)[here], *said))
         return np.pad(drawn, ((0, 0), (0, 1)), constant_values=np.nan)
@@ -212,9 +215,12 @@ def _band(window: Window, half: float) -> list[Trace]:
     return [low | silent, high | silent | {"fill": "tonexty", "fillcolor": colour("band")}]
 
 
-def _tension(result: FormResult, wire: WireForm, number: int, intervals: int) -> Drawing:
+def _tension(result: FormResult, wire: WireForm, number: int, tolerance: float | None) -> Drawing:
     profile, wanted = wire.profile, wire.target_tension
-    kept = thinned(profile.chainage, (profile.tension, profile.moment), intervals)
+    if tolerance is None:
+        kept = thinned(profile.chainage, (profile.tension, profile.moment), most=1500)
+    else:
+        kept = simplified(profile.chainage, profile.tension, tolerance * float(np.ptp(profile.tension)))
     x, tension = profile.chainage[kept], profile.tension[kept]
     hover = (
         "chainage %{x:.2f} m<br>tension %{y:.1f} N<br>height %{customdata[0]:.4f} m<br>"

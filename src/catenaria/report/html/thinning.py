@@ -9,6 +9,7 @@ FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.intp]
 
 INTERVALS = 600  # of a figure
+_CANDIDATES = 1200  # points
 
 
 def thinned(x: FloatArray, values: tuple[FloatArray, ...], most: int = INTERVALS) -> IntArray:
@@ -46,3 +47,41 @@ def thinned(x: FloatArray, values: tuple[FloatArray, ...], most: int = INTERVALS
             _, first = np.unique(interval[order[peaks]], return_index=True)
             kept.append(order[peaks[first]])
     return np.unique(np.concatenate(kept))
+
+
+def simplified(x: FloatArray, y: FloatArray, tolerance: float, least: int = 100) -> IntArray:
+    """Return the indices of points between which straight lines are off by no more than a tolerance.
+
+    Parameters
+    ----------
+    x : FloatArray
+        Where the points are, ascending; of very many points, every second one counts, or every third...
+    y : FloatArray
+        What is drawn over x.
+    tolerance : float
+        How far a point may be from the line that is drawn, in units of y.
+    least : int
+        Number of points, at about equal distances, that are always there: one points at points.
+
+    Notes
+    -----
+    Where a line is off, its worst point is added, in all lines at once (Douglas & Peucker 1973).
+
+    Examples
+    --------
+    >>> x = np.linspace(0.0, 1.0, 1001)
+    >>> kept = simplified(x, x**2, 1e-3)
+    >>> kept.size < 120, float(np.abs(np.interp(x, x[kept], x[kept] ** 2) - x**2).max()) <= 1e-3
+    (True, True)
+    """
+    among = np.unique(np.append(np.arange(0, x.size, max(x.size // _CANDIDATES, 1)), x.size - 1))
+    x, y = x[among], y[among]
+    kept = np.unique(np.linspace(0, x.size - 1, min(least, x.size)).astype(np.intp))
+    while True:
+        off = np.abs(y - np.interp(x, x[kept], y[kept]))
+        worst = np.maximum.reduceat(off, kept[:-1])
+        worst[worst <= tolerance] = np.inf
+        added = np.flatnonzero(off[:-1] == np.repeat(worst, np.diff(kept)))
+        if not added.size:
+            return among[kept]
+        kept = np.union1d(kept, added)
