@@ -15,7 +15,6 @@ from catenaria.results import FormResult
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.intp]
 
-
 _MARK = 5  # size of marks [px]
 _MOST_MARKED = 100  # droppers in one figure: marks of more touch each other, and take half of its time
 _DROPPER = (

@@ -9,7 +9,6 @@ FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.intp]
 
 INTERVALS = 600  # of a figure
-_CANDIDATES = 1200  # points
 
 
 def thinned(x: FloatArray, values: tuple[FloatArray, ...], most: int = INTERVALS) -> IntArray:
@@ -55,7 +54,7 @@ def simplified(x: FloatArray, y: FloatArray, tolerance: float, least: int = 100)
     Parameters
     ----------
     x : FloatArray
-        Where the points are, ascending; of very many points, every second one counts, or every third...
+        Where the points are, ascending.
     y : FloatArray
         What is drawn over x.
     tolerance : float
@@ -74,8 +73,6 @@ def simplified(x: FloatArray, y: FloatArray, tolerance: float, least: int = 100)
     >>> kept.size < 120, float(np.abs(np.interp(x, x[kept], x[kept] ** 2) - x**2).max()) <= 1e-3
     (True, True)
     """
-    among = np.unique(np.append(np.arange(0, x.size, max(x.size // _CANDIDATES, 1)), x.size - 1))
-    x, y = x[among], y[among]
     kept = np.unique(np.linspace(0, x.size - 1, min(least, x.size)).astype(np.intp))
     while True:
         off = np.abs(y - np.interp(x, x[kept], y[kept]))
@@ -83,5 +80,5 @@ def simplified(x: FloatArray, y: FloatArray, tolerance: float, least: int = 100)
         worst[worst <= tolerance] = np.inf
         added = np.flatnonzero(off[:-1] == np.repeat(worst, np.diff(kept)))
         if not added.size:
-            return among[kept]
+            return kept
         kept = np.union1d(kept, added)
