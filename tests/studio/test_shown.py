@@ -90,3 +90,12 @@ def test_verdicts_stand_in_the_table(outcome: Outcome) -> None:
     rows = tables.checks(outcome.checks).rows
     assert {row["verdict"] for row in rows} <= {"passes", "fails", "not judged", "stated"}
     assert rows[0]["check"] == outcome.checks[0].name
+
+
+def test_a_line_elsewhere_has_no_heights_in_common(paper: Document, form: FormResult) -> None:
+    away = solved(Document("away", replaced(paper.tree, ("start_chainage",), 10_000.0))).result
+    assert away is not None
+    assert differences(away, form).height.size == 0
+    lengths, heights = difference_plots(away, form, False)
+    assert lengths["data"][0]["x"]["bdata"]
+    assert heights["data"][0]["x"]["bdata"] == ""

@@ -88,7 +88,8 @@ def difference_plots(result: FormResult, variant: FormResult, dark: bool) -> lis
     stems = drawing.bars(
         found.x, np.zeros(found.x.size), found.cut_length, "droppers", colour("dropper"), legend=False
     )
-    kept = simplified(found.chainage, found.height, _PART * float(np.ptp(found.height)))
+    reach = float(np.ptp(found.height)) if found.height.size else 0.0  # lines may have no chainage in common
+    kept = simplified(found.chainage, found.height, _PART * reach)
     height = drawing.line(
         found.chainage[kept],
         found.height[kept],

@@ -60,7 +60,8 @@ def simplified(x: FloatArray, y: FloatArray, tolerance: float, least: int = 100)
     tolerance : float
         How far a point may be from the line that is drawn, in units of y.
     least : int
-        Number of points, at about equal distances, that are always there: one points at points.
+        Number of points, at about equal distances, that are always there: one points at points. Lines of
+        fewer points are drawn whole.
 
     Notes
     -----
@@ -73,7 +74,9 @@ def simplified(x: FloatArray, y: FloatArray, tolerance: float, least: int = 100)
     >>> kept.size < 120, float(np.abs(np.interp(x, x[kept], x[kept] ** 2) - x**2).max()) <= 1e-3
     (True, True)
     """
-    kept = np.unique(np.linspace(0, x.size - 1, min(least, x.size)).astype(np.intp))
+    if x.size <= least:
+        return np.arange(x.size)
+    kept = np.unique(np.linspace(0, x.size - 1, least).astype(np.intp))
     while True:
         off = np.abs(y - np.interp(x, x[kept], y[kept]))
         worst = np.maximum.reduceat(off, kept[:-1])
